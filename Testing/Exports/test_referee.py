@@ -212,7 +212,7 @@ PLANTS = {form: [Plant(*one) for one in rows] for form, rows in {
         ("bbox_obj", GT, number(r'"bbox_obj":\[', 1)), ("bbox_visib", GT, number(r'"bbox_visib":\[', 1)),
         ("px_count_all", GT, number('"px_count_all":', 1, 1)), ("px_count_visib", GT, number('"px_count_visib":', 1, 2)),
         ("px_count_valid", GT, number('"px_count_valid":', 1)), ("visib_fract", GT, number('"visib_fract":', 1e-11)),
-        ("models_info", "models/models_info.json", number('"min_x":', 5e-8), (), "models/obj_000001.ply"),
+        ("models_info", "models/models_info.json", number('"min_x":', 5e-8), ("models_eval",), "models/obj_000001.ply"),
         ("models", "models_eval/obj_000004.ply", number("end_header\n", 1.0)),
         ("coco", "test/000001/scene_gt_coco.json", number('"area":', 1)),
         ("mask", "test/000001/mask_visib/000000_000000.png", pixel(20, 20, 255)),

@@ -291,10 +291,11 @@ void ExportJudge::holds(const std::string& what, const std::string& file, const 
       });
 }
 
-void ExportJudge::size(const std::string& file, const std::string& camera, int frame, int width, int height)
+void ExportJudge::size(
+  const std::string& file, const std::string& camera, int frame, std::int64_t width, std::int64_t height)
 {
   const CameraRecord* record = this->Source.camera(camera, frame);
-  const auto text = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
+  const auto text = [](std::int64_t w, std::int64_t h) { return std::to_string(w) + "x" + std::to_string(h); };
   this->holds("size", file, placeText(camera, frame), record && record->width == width && record->height == height,
     text(width, height), record ? text(record->width, record->height) : "no such picture");
 }

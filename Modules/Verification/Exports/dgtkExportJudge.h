@@ -106,7 +106,7 @@ public:
   /// K with pixel centres at + 0.5.
   void intrinsics(
     const std::string& file, const std::string& camera, int frame, const Eigen::Matrix3d& K, double tolerance);
-  void size(const std::string& file, const std::string& camera, int frame, int width, int height);
+  void size(const std::string& file, const std::string& camera, int frame, std::int64_t width, std::int64_t height);
   /// x_camera = R x_world + t, x right, y down, z forward, scene units. `tolerance` of R's numbers, and of t's as a
   /// share of the larger of 1 and its length.
   void pose(const std::string& file, const std::string& camera, int frame, const Eigen::Matrix3d& R,

@@ -89,10 +89,19 @@ void checkFiles(const ExportedFrom& source, Results& results)
   for (const ExportedFile& one : source.record().files)
   {
     const std::string path = source.path(one.file.path);
-    listed.insert(one.file.path);
+    meter.equal(listed.insert(one.file.path).second,
+      [&] {
+        return Offender{ one.file.path, -1, -1, "listed twice", "once" };
+      });
     std::error_code error;
-    const std::string found = fs::is_regular_file(path, error) ? Sha256::ofFile(path) : "no file";
+    const bool there = fs::is_regular_file(path, error);
+    const std::string found = there ? Sha256::ofFile(path) : "no file";
     meter.equal(found == one.file.sha256, [&] { return Offender{ one.file.path, -1, -1, found, one.file.sha256 }; });
+    const std::uint64_t bytes = there ? fs::file_size(path, error) : one.file.bytes;
+    meter.equal(bytes == one.file.bytes,
+      [&] {
+        return Offender{ one.file.path, -1, -1, std::to_string(bytes) + " bytes", std::to_string(one.file.bytes) };
+      });
   }
   const auto [said, right] = exportOwnHashes(source.path(exportName));
   meter.equal(said == right, [&, &said = said, &right = right] { return Offender{ exportName, -1, -1, said, right }; });
@@ -105,6 +114,45 @@ void checkFiles(const ExportedFrom& source, Results& results)
     }
   }
   results.add({ "export", "", {} }, meter);
+}
+
+/// What export.json says of itself, of its names and of what files show.
+void checkRecord(ExportJudge& judge)
+{
+  const ExportedFrom& source = judge.source();
+  const ExportRecord& record = source.record();
+  const auto holds = [&](const std::string& where, bool right, const std::string& found, const std::string& expected)
+  { judge.holds("record", exportName, where, right, found, expected); };
+  holds("exporter", exportReader(record.exporter) != nullptr, record.exporter, "a format that can be read");
+  std::string request = record.version + '\n' + record.exporter + '\n' + record.manifestHash;
+  for (const auto& [option, value] : record.request)
+  {
+    request += '\n' + option + '=' + value;
+  }
+  holds("request_hash", record.requestHash == Sha256::of(request), record.requestHash, "that of dataset and request");
+  std::size_t paths = 0;
+  for (const ExportedName& name : record.names)
+  {
+    holds(name.name, source.named(name.name) == &name, "a name twice", "each once");
+    holds(name.name, source.camera(name.camera, name.frame) != nullptr, "no picture", "one of the dataset");
+    const ExportedFile* file = source.exported(name.name);
+    paths += file != nullptr;
+    holds(name.name,
+      !file || file->file.camera.empty() || (file->file.camera == name.camera && file->file.frame == name.frame),
+      "another picture", "that of the file");
+  }
+  holds("names", paths == 0 || paths == record.names.size(), "some are no files", "files, all or none");
+  std::set<std::pair<std::string, std::string>> layers;
+  for (const LayerRounding& one : record.layers)
+  {
+    holds(one.layer, layers.emplace(one.layer, one.unit).second && one.withoutCode <= one.values, "a layer twice",
+      "each once, with a value at least where there is a code");
+  }
+  for (const ExportedFile& one : record.files)
+  {
+    holds(one.file.path, one.file.camera.empty() || source.nameOf(one.file.camera, one.file.frame) != nullptr,
+      "of a picture without a name", "one with a name");
+  }
 }
 
 /// What throws is a file that cannot be used.
@@ -124,6 +172,10 @@ void attempt(const ExportedFrom& source, const std::string& layer, Results& resu
   catch (const UsageError& error)
   {
     results.unusable(layer, "", error.what());
+  }
+  catch (const std::out_of_range&)
+  {
+    results.unusable(layer, exportName, "names something that is not there, or a list is too short");
   }
 }
 
@@ -196,15 +248,16 @@ std::vector<Unchecked> judgeExport(const std::string& dataset, const std::string
     }
   }
   results.startCheck(2, "documents");
-  if (const ReadExport read = exportReader(source.record().exporter))
-  {
-    attempt(source, "documents", results,
-      [&]
+  attempt(source, "documents", results,
+    [&]
+    {
+      ExportJudge judge(source, results);
+      checkRecord(judge);
+      if (const ReadExport read = exportReader(source.record().exporter))
       {
-        ExportJudge judge(source, results);
         read(judge);
-      });
-  }
+      }
+    });
   return uncheckedOf(source, results);
 }
 } // namespace

@@ -9,12 +9,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
 
-/// Runs what takes a document apart; a missing key or a wrong type is an InputError of the file.
+/// Runs what takes a document apart; a missing key, a list too short or a wrong type is an InputError of the file.
 template <typename Body>
 auto useJson(const std::string& path, const Body& body)
 {
@@ -26,11 +28,27 @@ auto useJson(const std::string& path, const Body& body)
   {
     throw InputError(path, 0, std::string("cannot be used: ") + error.what());
   }
+  catch (const std::out_of_range&)
+  {
+    throw InputError(
+      path, 0, "cannot be used: a list is too short or too long, or it names something that is not there");
+  }
 }
 
 inline nlohmann::json readJsonFile(const std::string& path)
 {
   return useJson(path, [&] { return nlohmann::json::parse(readFile(path)); });
+}
+
+/// A list of so many numbers, which is used within useJson().
+inline std::vector<double> numberList(const nlohmann::json& list, std::size_t count)
+{
+  std::vector<double> numbers = list;
+  if (numbers.size() != count)
+  {
+    throw std::out_of_range("a list of another length");
+  }
+  return numbers;
 }
 
 } // namespace dgtk

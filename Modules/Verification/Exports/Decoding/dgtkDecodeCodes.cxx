@@ -134,4 +134,39 @@ void fillPolygon(const std::vector<double>& polygon, int width, int height, std:
   }
 }
 
+// mvs/mat.h: "width&height&channels&", then float32, channel after channel.
+DecodedPixels decodeColmap(const std::string& path, const PixelEncoding& encoding)
+{
+  const std::string bytes = readFile(path);
+  DecodedPixels pixels;
+  char end = 0;
+  int length = 0;
+  const int read = std::sscanf(
+    bytes.substr(0, 64).c_str(), "%d&%d&%d%c%n", &pixels.width, &pixels.height, &pixels.channels, &end, &length);
+  const std::size_t plane = std::size_t(std::max(pixels.width, 0)) * std::size_t(std::max(pixels.height, 0));
+  const std::size_t channels = std::size_t(std::max(pixels.channels, 0));
+  if (read != 4 || end != '&' || plane * channels == 0 || bytes.size() != std::size_t(length) + 4 * plane * channels)
+  {
+    throw InputError(path, 0, "is no map of COLMAP");
+  }
+  const double none = numberOf(encoding, "nothing", 0);
+  pixels.values.resize(plane * channels);
+  for (std::size_t i = 0; i < plane; ++i)
+  {
+    bool there = false;
+    for (std::size_t c = 0; c < channels; ++c)
+    {
+      float value = 0;
+      std::memcpy(&value, bytes.data() + length + 4 * (c * plane + i), 4);
+      pixels.values[i * channels + c] = double(value);
+      there = there || double(value) != none;
+    }
+    for (std::size_t c = 0; c < channels && !there; ++c)
+    {
+      pixels.values[i * channels + c] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return pixels;
+}
+
 } // namespace dgtk

@@ -145,6 +145,8 @@ void judgePicture(const Comparison& one, Meter& meter)
         meter.add(apart, [&] { return offenderAt(one, x, y, found.at(x, y, c), want); });
       }
     });
+  meter.equal(meter.Tolerance < meter.Largest + 1, // it is what was lost, and allows no more
+    [&] { return offenderAt(one, -1, -1, meter.Tolerance, meter.Largest); });
 }
 
 /// The transfer function of IEC 61966-2-1, of 0 to 1.
@@ -198,9 +200,9 @@ void judgeIds(const Comparison& one, Meter& meter)
   one.requireSize(found.width, found.height);
   std::map<std::uint32_t, double> codes;
   const std::vector<double>& pairs = one.encoding().numbers.at("codes");
-  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
+  for (std::size_t i = 0; i < pairs.size(); i += 2)
   {
-    codes[static_cast<std::uint32_t>(pairs[i])] = pairs[i + 1];
+    codes[static_cast<std::uint32_t>(pairs[i])] = pairs.at(i + 1);
   }
   const bool highFirst = numberOf(one.encoding(), "high_first", 0) != 0;
   const auto codeAt = [&](int x, int y)
@@ -294,6 +296,8 @@ void judgeValues(const Comparison& one, const Decoder& decoder, Meter& meter)
   one.requireSize(found.width, found.height);
   const bool codes = one.encoding().numbers.count("rounding") > 0;
   meter.Tolerance = codes ? numberOf(one.encoding(), "rounding", 0) * (1 + 1e-9) : 0;
+  const double most = numberOf(one.encoding(), "scale", 1) / 2; // of whole codes
+  meter.equal(meter.Tolerance <= most * (1 + 1e-6), [&] { return offenderAt(one, -1, -1, meter.Tolerance, most); });
   forPixels(found.width, found.height,
     [&](int x, int y)
     {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkBopAnnotations.h"
 #include "dgtkExportPixels.h"
 #include "dgtkJsonFile.h"
 #include "dgtkLongDocuments.h"
@@ -7,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <sstream>
 #include <utility>
@@ -21,10 +23,12 @@ namespace
 using Json = nlohmann::json;
 using BopPoints = std::vector<Eigen::Vector3d>;
 
+Eigen::Matrix3d matrixIn(const Json& list) { return matrixOf(numberList(list, 9)); }
+
 Eigen::Vector3d vectorOf(const Json& list)
 {
-  const std::vector<double> numbers = list;
-  return { numbers.at(0), numbers.at(1), numbers.at(2) };
+  const std::vector<double> numbers = numberList(list, 3);
+  return { numbers[0], numbers[1], numbers[2] };
 }
 
 /// Vertices of a .ply, as text or as doubles that begin each row.
@@ -70,6 +74,10 @@ BopPoints verticesOf(const std::string& path)
     }
     points.push_back(x);
   }
+  if (points.empty())
+  {
+    throw InputError(path, 0, "has no vertices");
+  }
   return points;
 }
 
@@ -85,6 +93,8 @@ public:
       this->Poses.emplace(part, judge.source().dataset() + "/" + part + posesName);
     }
     this->Infos = this->document("models/models_info.json");
+    judge.holds("models_eval", "models_eval/models_info.json", "all",
+      this->document("models_eval/models_info.json") == this->Infos, "another", "as in models");
     for (const auto& [id, info] : this->Infos.items())
     {
       const std::string file = "models/obj_" + digitsOf(id, 6) + ".ply";
@@ -101,12 +111,16 @@ public:
     const Json cameras = this->document(folder + "scene_camera.json");
     const Json poses = this->document(folder + "scene_gt.json");
     const Json infos = this->document(folder + "scene_gt_info.json");
-    const Json coco = this->document(folder + "scene_gt_coco.json");
-    this->Annotations.clear();
-    for (const Json& one : coco.at("annotations"))
+    BopAnnotations annotations(this->Judge, folder + "scene_gt_coco.json");
+    this->Annotations = &annotations;
+    this->Annotated = 0;
+    const auto& names = this->Judge.source().record().names;
+    const auto pictures = std::count_if(
+      names.begin(), names.end(), [&](const ExportedName& one) { return one.name.rfind(folder + "rgb/", 0) == 0; });
+    for (const auto& [name, document] : { std::pair<const char*, const Json*>{ "scene_camera.json", &cameras },
+           { "scene_gt.json", &poses }, { "scene_gt_info.json", &infos } })
     {
-      this->Annotations.emplace(
-        std::make_pair(one.at("image_id").get<std::int64_t>(), one.at("id").get<std::int64_t>() % 100000), &one);
+      this->Judge.number("pictures", "", folder + name, "", double(document->size()), double(pictures), 0);
     }
     for (const auto& [image, camera] : cameras.items())
     {
@@ -116,24 +130,83 @@ public:
       if (picture)
       {
         this->judgeCamera(folder + "scene_camera.json", camera, *picture);
-        this->judgeInstances(folder, image, poses.at(image), infos.at(image), *picture);
+        this->use(
+          folder + "scene_gt.json", [&, &id = image] { this->judgeInstances(folder, id, poses, infos, *picture); });
       }
+    }
+    std::set<int> kinds;
+    for (const auto& [id, points] : this->Models)
+    {
+      kinds.insert(id);
+    }
+    annotations.judgeRest(folder, kinds, this->Annotated);
+  }
+
+  /// What holds for the whole set.
+  void judgeWhole()
+  {
+    this->use("camera.json",
+      [&]
+      {
+        const Json camera = this->document("camera.json");
+        Eigen::Matrix3d K;
+        K << camera.at("fx"), 0, camera.at("cx"), 0, camera.at("fy"), camera.at("cy"), 0, 0, 1;
+        const ExportedName& first = this->Judge.source().record().names.front();
+        this->Judge.intrinsics("camera.json", first.camera, first.frame, fromWholeCentres(K), 1e-9);
+        this->Judge.size("camera.json", first.camera, first.frame, camera.at("width"), camera.at("height"));
+        this->judgeScale("camera.json", camera, first);
+      });
+    const std::string file = "test_targets_bop19.json";
+    if (this->Judge.source().exported(file))
+    {
+      this->use(file,
+        [&]
+        {
+          for (const Json& one : this->document(file))
+          {
+            const std::array<int, 3> key{ one.at("scene_id"), one.at("im_id"), one.at("obj_id") };
+            const auto found = this->Targets.find(key);
+            const int count = found == this->Targets.end() ? 0 : found->second;
+            this->Judge.number("targets", "instances", file, one.dump(), one.at("inst_count"), count, 0);
+            this->Targets.erase(key);
+          }
+        });
+      this->Judge.number("targets", "left", file, "all", double(this->Targets.size()), 0, 0);
     }
   }
 
 private:
   Json document(const std::string& name) const { return readJsonFile(this->Judge.source().path(name)); }
+  template <typename Body>
+  void use(const std::string& name, const Body& body) const
+  {
+    useJson(this->Judge.source().path(name), body);
+  }
+
+  /// Millimetres of a code of the depth maps, as those of a picture were made.
+  void judgeScale(const std::string& file, const Json& camera, const ExportedName& picture) const
+  {
+    std::string depth = picture.name;
+    depth.replace(depth.rfind("/rgb/"), 5, "/depth/").replace(depth.rfind('.'), std::string::npos, ".png");
+    const ExportedFile* map = this->Judge.source().exported(depth);
+    this->Judge.number(
+      "depth_scale", "mm", file, depth, camera.at("depth_scale"), map ? numberOf(map->encoding, "scale", 0) : 0, 0);
+  }
 
   void judgeInfo(const std::string& file, const Json& info, const BopPoints& points)
   {
     Eigen::Vector3d least = points.at(0);
     Eigen::Vector3d most = least;
     double widest = 0;
+    constexpr std::size_t few = 1500; // of more points the diameter is bounded only
     for (const Eigen::Vector3d& x : points)
     {
       least = least.cwiseMin(x);
       most = most.cwiseMax(x);
-      widest = points.size() > 5000 ? widest : std::max(widest, (x - points[0]).norm());
+      for (std::size_t k = 0; k < points.size() && points.size() <= few; ++k)
+      {
+        widest = std::max(widest, (x - points[k]).norm());
+      }
     }
     const char* axes = "xyz";
     for (int i = 0; i < 3; ++i)
@@ -143,36 +216,51 @@ private:
         "models_info", "mm", file, "size", info.at(std::string("size_") + axes[i]), most[i] - least[i], 1e-9);
     }
     const double diameter = info.at("diameter");
-    const bool possible = diameter >= widest && diameter <= (most - least).norm() * (1 + 1e-12) &&
-                          diameter >= (most - least).maxCoeff() * (1 - 1e-12);
+    const bool possible =
+      diameter >= widest * (1 - 1e-12) && (points.size() > few || diameter <= widest * (1 + 1e-12)) &&
+      diameter <= (most - least).norm() * (1 + 1e-12) && diameter >= (most - least).maxCoeff() * (1 - 1e-12);
     this->Judge.holds("models_info", file, "diameter", possible, std::to_string(diameter), "one of the model");
   }
 
   void judgeCamera(const std::string& file, const Json& camera, const ExportedName& picture)
   {
-    this->Judge.intrinsics(file, picture.camera, picture.frame, fromWholeCentres(matrixOf(camera.at("cam_K"))), 1e-9);
-    this->Judge.pose(file, picture.camera, picture.frame, matrixOf(camera.at("cam_R_w2c")),
-      vectorOf(camera.at("cam_t_w2c")) / this->Unit, 1e-9);
+    this->use(file,
+      [&]
+      {
+        this->judgeScale(file, camera, picture);
+        this->Judge.intrinsics(
+          file, picture.camera, picture.frame, fromWholeCentres(matrixIn(camera.at("cam_K"))), 1e-9);
+        this->Judge.pose(file, picture.camera, picture.frame, matrixIn(camera.at("cam_R_w2c")),
+          vectorOf(camera.at("cam_t_w2c")) / this->Unit, 1e-9);
+      });
   }
 
   /// The objects of a picture, found by where their models' vertices are.
-  void judgeInstances(const std::string& folder, const std::string& image, const Json& poses, const Json& infos,
+  void judgeInstances(const std::string& folder, const std::string& image, const Json& allPoses, const Json& allInfos,
     const ExportedName& picture)
   {
+    const Json& poses = allPoses.at(image);
     const std::string file = folder + "scene_gt.json";
     const std::vector<BoxRecord>& boxes = this->Judge.source().boxes(picture.camera, picture.frame);
-    this->Judge.number("instances", "", file, picture.name, double(poses.size()), double(infos.size()), 0);
+    const std::string infoFile = folder + "scene_gt_info.json";
+    const std::size_t infos = allInfos.contains(image) ? allInfos.at(image).size() : 0;
+    this->Judge.number("instances", "", file, picture.name, double(poses.size()), double(infos), 0);
     const std::vector<PoseRecord> posed = this->Poses.at(this->Judge.source().partOf(picture.camera)).at(picture.frame);
     std::set<std::uint32_t> found;
-    for (std::size_t i = 0; i < poses.size() && i < infos.size(); ++i)
+    for (std::size_t i = 0; i < poses.size() && i < infos; ++i)
     {
+      this->use(infoFile, [&] { this->count(folder, image, poses[i].at("obj_id"), allInfos.at(image)[i]); });
       const std::string where = picture.name + ", instance " + std::to_string(i);
       const BoxRecord* box = this->boxOf(poses[i], picture, boxes, posed);
       this->Judge.holds("poses", file, where, box && found.insert(box->id).second, "a pose", "that of an object, once");
       if (box)
       {
-        this->judgeNumbers(folder, where, infos[i], *box);
-        this->judgeValid(folder, image, i, infos[i], where);
+        this->use(infoFile,
+          [&]
+          {
+            this->judgeNumbers(infoFile, where, allInfos.at(image)[i], *box);
+            this->judgeValid(folder, image, i, allInfos.at(image)[i], where);
+          });
         this->judgeMasks(folder, image, i, *box, picture, poses[i].at("obj_id"));
       }
     }
@@ -180,6 +268,16 @@ private:
     {
       const bool wanted = this->isPosed(picture.camera, box.id) && box.pixelsWhole > 0;
       this->Judge.holds("instances", file, picture.name, found.count(box.id) > 0 || !wanted, "none", box.name);
+    }
+  }
+
+  /// What other documents have to say of an instance.
+  void count(const std::string& folder, const std::string& image, int model, const Json& info)
+  {
+    this->Annotated += info.at("px_count_visib") > 0;
+    if (folder.rfind("test", 0) == 0 && info.at("visib_fract") >= least)
+    {
+      ++this->Targets[{ std::stoi(folder.substr(folder.find('/') + 1)), std::stoi(image), model }];
     }
   }
 
@@ -203,7 +301,7 @@ private:
     const std::vector<PoseRecord>& posed)
   {
     const BopPoints& model = this->Models.at(pose.at("obj_id"));
-    const Eigen::Matrix3d R = matrixOf(pose.at("cam_R_m2c"));
+    const Eigen::Matrix3d R = matrixIn(pose.at("cam_R_m2c"));
     const Eigen::Vector3d t = vectorOf(pose.at("cam_t_m2c"));
     const CameraRecord* camera = this->Judge.source().camera(picture.camera, picture.frame);
     const std::string part = this->Judge.source().partOf(picture.camera);
@@ -243,9 +341,8 @@ private:
     return known->second;
   }
 
-  void judgeNumbers(const std::string& folder, const std::string& where, const Json& info, const BoxRecord& box)
+  void judgeNumbers(const std::string& file, const std::string& where, const Json& info, const BoxRecord& box)
   {
-    const std::string file = folder + "scene_gt_info.json";
     const auto number = [&](const char* key, double expected)
     { this->Judge.number(key, "px", file, where, info.at(key), expected, 0); };
     number("px_count_all", double(box.pixelsWhole));
@@ -310,39 +407,11 @@ private:
     {
       this->Judge.amodalMask(whole, picture.camera, picture.frame, box.id, inside(whole));
     }
-    if (box.pixelsVisible == 0)
+    const bool wanted = double(box.pixelsVisible) >= least * double(box.pixelsWhole);
+    if (box.pixelsVisible > 0)
     {
-      return;
+      this->Annotations->judge({ picture.name, std::stoll(image), instance, model, wanted }, own, inside(whole));
     }
-    const std::string file = folder + "scene_gt_coco.json";
-    const auto annotation = this->Annotations.find({ std::stoll(image), std::int64_t(instance) + 1 });
-    this->Judge.holds("coco", file, picture.name, annotation != this->Annotations.end(), "no annotation",
-      "one of instance " + std::to_string(instance));
-    if (annotation == this->Annotations.end())
-    {
-      return;
-    }
-    const Json& one = *annotation->second;
-    this->Judge.number("coco", "", file, picture.name, one.at("category_id"), model, 0);
-    this->Judge.number("coco", "", file, picture.name, one.at("area"), double(box.pixelsVisible), 0);
-    const bool ignored = one.at("ignore");
-    this->Judge.holds("coco", file, picture.name,
-      ignored == (double(box.pixelsVisible) < 0.1 * double(box.pixelsWhole)), ignored ? "ignored" : "wanted",
-      "ignored below a tenth");
-    std::uint64_t at = 0;
-    bool same = true;
-    const std::uint64_t height = one.at("segmentation").at("size").at(0);
-    const std::uint64_t width = one.at("segmentation").at("size").at(1);
-    bool in = false;
-    for (const std::uint64_t count : one.at("segmentation").at("counts"))
-    {
-      for (std::uint64_t end = std::min(at + count, std::uint64_t(own.size())); at < end; ++at)
-      {
-        same = same && (own[at % height * width + at / height] != 0) == in;
-      }
-      in = !in;
-    }
-    this->Judge.holds("coco", file, picture.name, same && at == own.size(), "another mask", "mask_visib");
   }
 
   ExportJudge& Judge;
@@ -350,8 +419,11 @@ private:
   Json Infos;
   std::map<int, BopPoints> Models;
   std::map<std::string, BopPoints> Geometries;
-  std::map<std::string, PoseIndex> Poses;                                   ///< by part
-  std::map<std::pair<std::int64_t, std::int64_t>, const Json*> Annotations; ///< by image and instance, from 1
+  std::map<std::string, PoseIndex> Poses;    ///< by part
+  static constexpr double least = 0.1;       ///< of an object is seen where it is to be found
+  std::size_t Annotated = 0;                 ///< instances of which something is visible
+  BopAnnotations* Annotations = nullptr;     ///< of the scene
+  std::map<std::array<int, 3>, int> Targets; ///< by scene, image and model
 };
 } // namespace
 
@@ -370,6 +442,7 @@ void readBop(ExportJudge& judge)
           set.judgeScene(path.substr(0, path.size() - name.size()));
         }
       }
+      set.judgeWhole();
     });
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkReadCoco.h"
+
 #include "dgtkExportPixels.h"
 #include "dgtkJsonFile.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
 
@@ -37,19 +40,23 @@ std::vector<std::uint64_t> countsOf(const std::string& text)
   return counts;
 }
 
-/// Rows top to bottom of a mask given column by column.
+/// Rows top to bottom of a mask given column by column; none where the counts are not of so many pixels.
 std::vector<char> filled(const std::vector<std::uint64_t>& counts, int width, int height)
 {
   std::vector<char> mask(std::size_t(width) * height);
   std::size_t at = 0;
   for (std::size_t i = 0; i < counts.size(); ++i)
   {
-    for (std::uint64_t k = 0; k < counts[i] && at < mask.size(); ++k, ++at)
+    if (counts[i] > mask.size() - at)
+    {
+      return {};
+    }
+    for (const std::size_t end = at + counts[i]; at < end; ++at)
     {
       mask[at % std::size_t(height) * std::size_t(width) + at / std::size_t(height)] = char(i % 2);
     }
   }
-  return mask;
+  return at == mask.size() ? mask : std::vector<char>();
 }
 
 std::vector<char> maskOf(const Json& segmentation, int width, int height)
@@ -63,22 +70,19 @@ std::vector<char> maskOf(const Json& segmentation, int width, int height)
     }
     return mask;
   }
-  const Json& counts = segmentation.at("counts");
-  return filled(counts.is_string() ? countsOf(counts.get<std::string>()) : counts.get<std::vector<std::uint64_t>>(),
-    segmentation.at("size").at(1), segmentation.at("size").at(0));
+  const bool sized = segmentation.at("size") == Json{ height, width };
+  return sized ? filled(countsOf(segmentation.at("counts")), width, height) : std::vector<char>();
 }
 
 Eigen::Vector4d cornersOf(const Json& box)
 {
-  const double x = box.at(0);
-  const double y = box.at(1);
-  return { x, y, x + box.at(2).get<double>(), y + box.at(3).get<double>() };
+  const std::vector<double> numbers = numberList(box, 4);
+  return { numbers[0], numbers[1], numbers[0] + numbers[2], numbers[1] + numbers[3] };
 }
 
 struct CocoImage
 {
-  std::string camera;
-  int frame = 0;
+  const ExportedName* picture = nullptr;
   int width = 0;
   int height = 0;
   std::uint64_t annotations = 0;
@@ -86,23 +90,53 @@ struct CocoImage
 
 std::uint64_t visibleObjects(const ExportedFrom& source, const CocoImage& image)
 {
-  const std::vector<BoxRecord>& boxes = source.boxes(image.camera, image.frame);
+  const std::vector<BoxRecord>& boxes = source.boxes(image.picture->camera, image.picture->frame);
   return static_cast<std::uint64_t>(
     std::count_if(boxes.begin(), boxes.end(), [](const BoxRecord& box) { return box.visible.has_value(); }));
+}
+
+/// The box of pixels inside, of which there are some.
+Eigen::Vector4d cornersOf(const std::vector<char>& mask, int width)
+{
+  Eigen::Vector4d corners(infinite, infinite, -infinite, -infinite);
+  for (std::size_t i = 0; i < mask.size(); ++i)
+  {
+    if (mask[i] != 0)
+    {
+      const Eigen::Vector2d pixel(double(i % std::size_t(width)), double(i / std::size_t(width)));
+      corners << corners.head<2>().cwiseMin(pixel), corners.tail<2>().cwiseMax(pixel + Eigen::Vector2d(1, 1));
+    }
+  }
+  return corners;
 }
 
 void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one, CocoImage& image)
 {
   const auto object = one.at("object_id").get<std::uint32_t>();
+  const std::string& camera = image.picture->camera;
+  const int frame = image.picture->frame;
   const std::string where = "annotation " + one.at("id").dump();
   const std::vector<char> mask = maskOf(one.at("segmentation"), image.width, image.height);
-  judge.box(file, image.camera, image.frame, object, cornersOf(one.at("bbox")), 0);
-  judge.mask(file, image.camera, image.frame, object, mask);
+  const std::vector<char> whole = maskOf(one.at("amodal_segmentation"), image.width, image.height);
+  judge.box(file, camera, frame, object, cornersOf(one.at("bbox")), 0);
+  judge.mask(file, camera, frame, object, mask);
   judge.number("area", "px", file, where, one.at("area"), double(std::count(mask.begin(), mask.end(), char(1))), 0);
-  judge.amodalMask(
-    file, image.camera, image.frame, object, maskOf(one.at("amodal_segmentation"), image.width, image.height));
-  const ObjectRecord* record = judge.source().object(image.camera, object);
+  judge.amodalMask(file, camera, frame, object, whole);
+  judge.holds("amodal box", file, where, cornersOf(one.at("amodal_bbox")) == cornersOf(whole, image.width),
+    one.at("amodal_bbox").dump(), "that of the mask");
+  judge.holds("crowds", file, where, one.at("iscrowd") == 0, one.at("iscrowd").dump(), "0");
+  const ObjectRecord* record = judge.source().object(camera, object);
   judge.number("category", "id", file, where, one.at("category_id"), record ? record->classId : 0, 0);
+  judge.holds("object", file, where, record && one.at("object") == utf8FromBytes(record->name), one.at("object").dump(),
+    "the name of the object");
+  for (const BoxRecord& box : judge.source().boxes(camera, frame))
+  {
+    if (box.id == object)
+    {
+      judge.number("visible fraction", "1", file, where, one.at("visible_fraction"),
+        double(box.pixelsVisible) / double(box.pixelsAmodal), 1e-12);
+    }
+  }
   ++image.annotations;
 }
 
@@ -111,7 +145,7 @@ void readKeypoints(
   ExportJudge& judge, const std::string& file, const Json& categories, const Json& one, const CocoImage& image)
 {
   const auto object = one.at("object_id").get<std::uint32_t>();
-  const std::vector<BoxRecord>& boxes = judge.source().boxes(image.camera, image.frame);
+  const std::vector<BoxRecord>& boxes = judge.source().boxes(image.picture->camera, image.picture->frame);
   const auto box = std::find_if(boxes.begin(), boxes.end(), [&](const BoxRecord& each) { return each.id == object; });
   const auto category = std::find_if(
     categories.begin(), categories.end(), [&](const Json& each) { return each.at("id") == one.at("category_id"); });
@@ -143,11 +177,11 @@ void readKeypoints(
 
 std::uint64_t pointedObjects(const ExportedFrom& source, const CocoImage& image, const Json& categories)
 {
-  const std::vector<BoxRecord>& boxes = source.boxes(image.camera, image.frame);
+  const std::vector<BoxRecord>& boxes = source.boxes(image.picture->camera, image.picture->frame);
   return static_cast<std::uint64_t>(std::count_if(boxes.begin(), boxes.end(),
     [&](const BoxRecord& box)
     {
-      const ObjectRecord* object = source.object(image.camera, box.id);
+      const ObjectRecord* object = source.object(image.picture->camera, box.id);
       return box.visible && object &&
              std::any_of(
                categories.begin(), categories.end(), [&](const Json& one) { return one.at("id") == object->classId; });
@@ -164,16 +198,22 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
   useJson(path,
     [&]
     {
+      std::vector<ClassRecord> classes = readClasses(judge.source().document("objects.json"));
+      classes.erase(std::remove_if(classes.begin(), classes.end(),
+                      [&](const ClassRecord& one) { return pointed && one.keypoints.empty(); }),
+        classes.end());
+      const Json& categories = document.at("categories");
+      judgeCocoCategories(judge, file, categories, classes);
       std::map<std::int64_t, CocoImage> images;
       for (const Json& one : document.at("images"))
       {
-        const ExportedName* name = judge.source().named(split + "/" + one.at("file_name").get<std::string>());
-        const bool same =
-          name && one.value("camera", name->camera) == name->camera && one.value("frame", name->frame) == name->frame;
-        judge.holds("names", file, one.at("file_name"), same, "a picture", "one of export.json");
-        const CocoImage image{ name ? name->camera : "", name ? name->frame : 0, one.at("width"), one.at("height") };
-        judge.size(file, image.camera, image.frame, image.width, image.height);
-        judge.holds("ids", file, "image", images.emplace(one.at("id"), image).second, "an id twice", "each once");
+        CocoImage image{ judgeCocoImage(judge, file, split + '/', one) };
+        const CameraRecord* camera =
+          image.picture ? judge.source().camera(image.picture->camera, image.picture->frame) : nullptr;
+        image.width = camera ? camera->width : 0;
+        image.height = camera ? camera->height : 0;
+        const bool first = !image.picture || images.emplace(one.at("id"), image).second;
+        judge.holds("ids", file, "image", first, "an id twice", "each once");
       }
       std::set<std::int64_t> ids;
       for (const Json& one : document.at("annotations"))
@@ -181,24 +221,56 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
         const auto id = one.at("id").get<std::int64_t>();
         judge.holds(
           "ids", file, "annotation", id > 0 && ids.insert(id).second, one.at("id").dump(), "each once, from 1");
-        CocoImage& image = images.at(one.at("image_id"));
-        readAnnotation(judge, file, one, image);
-        if (pointed)
+        const auto image = images.find(one.at("image_id"));
+        judge.holds("ids", file, "annotation", image != images.end(), one.at("image_id").dump(), "one of the images");
+        if (image != images.end())
         {
-          readKeypoints(judge, file, document.at("categories"), one, image);
+          readAnnotation(judge, file, one, image->second);
+          if (pointed)
+          {
+            readKeypoints(judge, file, categories, one, image->second);
+          }
         }
       }
       for (const auto& [id, image] : images)
       {
-        judge.number("annotations", "objects", file, image.camera + " at frame " + std::to_string(image.frame),
-          double(image.annotations),
-          double(pointed ? pointedObjects(judge.source(), image, document.at("categories"))
-                         : visibleObjects(judge.source(), image)),
+        judge.number("annotations", "objects", file, image.picture->name, double(image.annotations),
+          double(pointed ? pointedObjects(judge.source(), image, categories) : visibleObjects(judge.source(), image)),
           0);
       }
+      const std::vector<ExportedName>& names = judge.source().record().names;
+      const auto pictures = std::count_if(
+        names.begin(), names.end(), [&](const ExportedName& one) { return one.name.rfind(split + '/', 0) == 0; });
+      judge.number("images", "", file, split, double(images.size()), double(pictures), 0);
     });
 }
 } // namespace
+
+void judgeCocoCategories(
+  ExportJudge& judge, const std::string& file, const Json& categories, const std::vector<ClassRecord>& classes)
+{
+  judge.number("categories", "", file, "all", double(categories.size()), double(classes.size()), 0);
+  for (std::size_t i = 0; i < std::min(categories.size(), classes.size()); ++i)
+  {
+    const Json& one = categories[i];
+    const bool same = one.at("id") == classes[i].id && one.at("name") == utf8FromBytes(classes[i].name) &&
+                      one.at("supercategory") == utf8FromBytes(classes[i].supercategory);
+    judge.holds("categories", file, std::to_string(i + 1), same, one.dump(), "a class of the dataset");
+  }
+}
+
+const ExportedName* judgeCocoImage(
+  ExportJudge& judge, const std::string& file, const std::string& folder, const Json& image)
+{
+  const ExportedName* name = judge.source().named(folder + image.at("file_name").get<std::string>());
+  const bool same = name && image.at("camera") == utf8FromBytes(name->camera) && image.at("frame") == name->frame;
+  judge.holds("names", file, image.at("file_name"), same, "a picture", "one of export.json");
+  if (name)
+  {
+    judge.size(file, name->camera, name->frame, image.at("width"), image.at("height"));
+  }
+  return name;
+}
 
 void readCoco(ExportJudge& judge)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExportPixels.h"
 #include "dgtkJsonFile.h"
+#include "dgtkReadCoco.h"
 
 #include <algorithm>
 
@@ -67,6 +68,7 @@ void readSegments(ExportJudge& judge, const std::string& file, const std::string
     judge.number("area", "px", file, where, one.at("area"), double(own.area), 0);
     const std::vector<double> box{ double(own.left), double(own.top), double(own.right + 1 - own.left),
       double(own.bottom + 1 - own.top) };
+    judge.holds("crowds", file, where, one.at("iscrowd") == 0, one.at("iscrowd").dump(), "0");
     judge.holds("box", file, where, one.at("bbox").get<std::vector<double>>() == box, one.at("bbox").dump(), "its box");
     const bool same = std::all_of(own.objects.begin(), own.objects.end(),
       [&](std::uint32_t object)
@@ -81,30 +83,48 @@ void readSegments(ExportJudge& judge, const std::string& file, const std::string
   judge.holds("segments", file, annotation.at("file_name"), shown.empty(), "a segment without a word", "none");
 }
 
+/// Whether a category is of things; what the dataset or the request calls stuff is not.
+std::map<std::uint32_t, bool> judgeThings(ExportJudge& judge, const std::string& file, const Json& categories)
+{
+  const std::vector<ClassRecord> classes = readClasses(judge.source().document("objects.json"));
+  judgeCocoCategories(judge, file, categories, classes);
+  std::string stuff;
+  for (const auto& [option, value] : judge.source().record().request)
+  {
+    stuff = option == "stuff" && !value.empty() ? ',' + value + ',' : stuff;
+  }
+  std::map<std::uint32_t, bool> things;
+  std::set<std::vector<double>> colors;
+  for (std::size_t i = 0; i < std::min(categories.size(), classes.size()); ++i)
+  {
+    const Json& one = categories[i];
+    const bool isThing = classes[i].thing != false && stuff.find(',' + classes[i].name + ',') == std::string::npos;
+    judge.holds("things", file, one.at("name"), one.at("isthing") == int(isThing), one.at("isthing").dump(),
+      "as the dataset has it");
+    const std::vector<double> color = numberList(one.at("color"), 3);
+    const bool own = !classes[i].color || std::equal(color.begin(), color.end(), classes[i].color->begin());
+    judge.holds("colors", file, one.at("name"), own && (classes[i].color || colors.insert(color).second),
+      one.at("color").dump(), classes[i].color ? "that of the class" : "another than those before");
+    things[classes[i].id] = isThing;
+  }
+  return things;
+}
+
 void readDocument(ExportJudge& judge, const std::string& file)
 {
   const std::string path = judge.source().path(file);
   const Json document = readJsonFile(path);
   const std::string folder = file.substr(0, file.size() - 5) + '/';      // without .json
   const std::string split = folder.substr(folder.find("panoptic_") + 9); // SPLIT/
-  std::map<std::uint32_t, bool> things;
   std::map<std::int64_t, const ExportedName*> images;
   useJson(path,
     [&]
     {
-      for (const Json& one : document.at("categories"))
-      {
-        things[one.at("id")] = one.at("isthing") == 1;
-      }
+      const std::map<std::uint32_t, bool> things = judgeThings(judge, file, document.at("categories"));
       for (const Json& one : document.at("images"))
       {
-        const ExportedName* name = judge.source().named(split + one.at("file_name").get<std::string>());
-        judge.holds("names", file, one.at("file_name"), name != nullptr, "a picture", "one of export.json");
+        const ExportedName* name = judgeCocoImage(judge, file, split, one);
         judge.holds("ids", file, "image", images.emplace(one.at("id"), name).second, "an id twice", "each once");
-        if (name)
-        {
-          judge.size(file, name->camera, name->frame, one.at("width"), one.at("height"));
-        }
       }
       judge.number("annotations", "", file, "", double(document.at("annotations").size()), double(images.size()), 0);
       for (const Json& one : document.at("annotations"))

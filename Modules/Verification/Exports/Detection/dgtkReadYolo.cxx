@@ -4,8 +4,11 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkJsonFile.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
+#include <sstream>
 
 // Ultralytics' dataset formats (detect, segment, pose, obb): places are shares of the image, classes from 0.
 
@@ -183,6 +186,62 @@ void judgePicture(ExportJudge& judge, const std::string& file, const ExportedNam
     }
   }
 }
+/// data.yaml: the parts' folders, and the names of the classes in their order.
+void judgeYaml(ExportJudge& judge, const Names& names)
+{
+  const std::string file = "data.yaml";
+  const std::string path = judge.source().path(file);
+  std::set<std::string> parts;
+  for (const ExportedName& picture : judge.source().record().names)
+  {
+    parts.insert(picture.name.substr(0, picture.name.rfind('/')));
+  }
+  std::map<std::string, std::string> said;
+  std::vector<std::string> classes;
+  int lists = 0;
+  std::istringstream text(readFile(path));
+  useJson(path,
+    [&]
+    {
+      for (std::string line; std::getline(text, line);)
+      {
+        const std::string key = line.substr(0, line.find(": "));
+        const std::string value = line.substr(std::min(line.size(), key.size() + 2));
+        if (key == "  " + std::to_string(classes.size()))
+        {
+          classes.push_back(nlohmann::json::parse(value));
+        }
+        else if (key == "kpt_shape")
+        {
+          const std::string expected = '[' + std::to_string(names.keypoints.size()) + ", 3]";
+          judge.holds("keypoints", file, key, value == expected, value, expected);
+        }
+        else if (key == "names:" || line == "names: {}")
+        {
+          judge.holds("names", file, key, classes.empty() && ++lists == 1, "names twice", "once");
+        }
+        else
+        {
+          const std::string part = key[0] == '"' ? nlohmann::json::parse(key).get<std::string>() : key;
+          const bool own = value == "images/" + part || parts.count("images/" + part) == 0; // of train and val both are
+          judge.holds("parts", file, key, own && parts.count(value) > 0 && said.emplace(part, value).second, value,
+            "a folder of pictures, once");
+        }
+      }
+    });
+  parts.insert({ "images/train", "images/val" });
+  for (const std::string& part : parts)
+  {
+    judge.holds("parts", file, part, said.count(part.substr(7)) > 0, "none", "a line");
+  }
+  judge.number("names", "", file, "lists", lists, 1, 0);
+  judge.number("names", "", file, "classes", double(classes.size()), double(names.classes.size()), 0);
+  for (std::size_t i = 0; i < std::min(classes.size(), names.classes.size()); ++i)
+  {
+    const std::string expected = utf8FromBytes(names.classes[i].name);
+    judge.holds("names", file, "class " + std::to_string(i), classes[i] == expected, classes[i], expected);
+  }
+}
 } // namespace
 
 void readYolo(ExportJudge& judge)
@@ -193,12 +252,7 @@ void readYolo(ExportJudge& judge)
     const std::string stem = picture.name.substr(0, picture.name.rfind('.'));
     judgePicture(judge, "labels/" + stem.substr(stem.find('/') + 1) + ".txt", picture, names);
   }
-  const std::string yaml = readFile(judge.source().path("data.yaml"));
-  for (std::size_t i = 0; i < names.classes.size(); ++i)
-  {
-    const std::string begin = "\n  " + std::to_string(i) + ": \"";
-    judge.holds("names", "data.yaml", names.classes[i].name, yaml.find(begin) != std::string::npos, "no name", begin);
-  }
+  judgeYaml(judge, names);
 }
 
 } // namespace dgtk

@@ -180,6 +180,9 @@ void judgeCalibration(ExportJudge& judge, const std::string& file, const Exporte
   static const std::vector<double> scanner{ 0, -1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0 };
   judge.holds("scanner", file, "Tr_velo_to_cam", numbersOf(all, path, "Tr_velo_to_cam", 12) == scanner, "another",
     "axes x forward, y left, z up");
+  static const std::vector<double> same{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+  judge.holds(
+    "scanner", file, "Tr_imu_to_velo", numbersOf(all, path, "Tr_imu_to_velo", 12) == same, "another", "no turn");
 }
 
 void judgeLabels(ExportJudge& judge, const std::string& file, const ExportedName& picture)
@@ -211,13 +214,16 @@ void readKittiObject(ExportJudge& judge)
       judgeCalibration(judge, "training/calib/" + number + ".txt", *picture);
     }
   }
+  std::set<std::string> listed;
   for (const ExportedFile* one : filesIn(source, "ImageSets/", "txt"))
   {
     for (const std::vector<std::string>& words : linesOf(source.path(one->file.path)))
     {
       pictureOf(judge, one->file.path, "training/image_2/" + words[0] + ".png");
+      judge.holds("lists", one->file.path, words[0], listed.insert(words[0]).second, "a picture twice", "each once");
     }
   }
+  judge.number("lists", "", "ImageSets", "all parts", double(listed.size()), double(source.record().names.size()), 0);
 }
 
 } // namespace dgtk

@@ -51,18 +51,22 @@ void judgeMvsnetCamera(ExportJudge& judge, const std::string& file, const Export
   {
     return;
   }
-  Eigen::Matrix<double, 7, 4> all = Eigen::Matrix<double, 7, 4>::Zero();
-  for (std::size_t row = 0; row < 7; ++row)
+  std::vector<double> pose;
+  std::vector<double> K;
+  for (std::size_t row = 1; row < 10; row += row == 4 ? 3 : 1)
   {
-    const std::vector<double> numbers = numbersIn(path, lines, row < 4 ? 1 + row : 3 + row);
-    for (std::size_t k = 0; k < numbers.size() && k < 4; ++k)
+    const std::vector<double> numbers = numbersIn(path, lines, row);
+    std::vector<double>& all = row <= 4 ? pose : K;
+    if (numbers.size() != (row <= 4 ? 4 : 3))
     {
-      all(Eigen::Index(row), Eigen::Index(k)) = numbers[k];
+      throw InputError(path, row + 1, "has another number of numbers");
     }
+    all.insert(all.end(), numbers.begin(), numbers.end());
   }
-  judge.pose(
-    file, picture.camera, picture.frame, all.topLeftCorner<3, 3>(), all.topRightCorner<3, 1>().head<3>(), 1e-9);
-  judge.intrinsics(file, picture.camera, picture.frame, all.bottomLeftCorner<3, 3>(), 1e-9);
+  judge.pose(file, picture.camera, picture.frame, matrixOf(pose, 4), { pose[3], pose[7], pose[11] }, 1e-9);
+  judge.holds("camera", file, picture.name,
+    std::vector<double>(pose.begin() + 12, pose.end()) == std::vector<double>{ 0, 0, 0, 1 }, lines[4], "0 0 0 1");
+  judge.intrinsics(file, picture.camera, picture.frame, matrixOf(K), 1e-9);
   const std::vector<double> range = numbersIn(path, lines, 11);
   const bool sound = range.size() == 4 && range[0] > 0 && range[3] > range[0] &&
                      std::abs(range[0] + range[1] * (range[2] - 1) - range[3]) <= 1e-9 * range[3];
@@ -125,11 +129,14 @@ void judgePairs(ExportJudge& judge, const std::string& file)
   const std::vector<ExportedName>& names = judge.source().record().names;
   const std::vector<TrackPoint> points = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
   judge.number("pairs", "", file, "lines", double(lines.size()), double(2 * names.size() + 1), 0);
+  judge.holds("pairs", file, "views", numbersIn(path, lines, 0) == std::vector<double>{ double(names.size()) },
+    lines.empty() ? "" : lines[0], std::to_string(names.size()));
   for (std::size_t i = 0; 2 * i + 2 < lines.size() && i < names.size(); ++i)
   {
     const std::vector<double> row = numbersIn(path, lines, 2 * i + 2);
     const std::string where = "view " + std::to_string(i);
-    judge.number("pairs", "", file, where, numbersIn(path, lines, 2 * i + 1).at(0), double(i), 0);
+    judge.holds("pairs", file, where, numbersIn(path, lines, 2 * i + 1) == std::vector<double>{ double(i) },
+      lines[2 * i + 1], std::to_string(i));
     judge.number("pairs", "", file, where, double(row.size()), row.empty() ? 1 : 2 * row[0] + 1, 0);
     for (std::size_t k = 1; k + 1 < row.size(); k += 2)
     {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportPixels.h"
 #include "dgtkJsonFile.h"
 #include "dgtkReadTexts.h"
 
@@ -38,8 +39,11 @@ void judgeLens(
   judge.size(file, picture.camera, picture.frame, int(number("w")), int(number("h")));
   const double angle = 2 * std::atan(0.5 * number("w") / number("fl_x"));
   judge.number("angle", "rad", file, picture.name, number("camera_angle_x"), angle, 1e-12);
-  const bool fisheye = document.at("camera_model") == "OPENCV_FISHEYE";
-  const bool same = fisheye == (camera->model == "fisheye") && document.at("is_fisheye") == fisheye;
+  const double high = 2 * std::atan(0.5 * number("h") / number("fl_y"));
+  judge.number("angle", "rad", file, picture.name, number("camera_angle_y"), high, 1e-12);
+  const bool fisheye = camera->model == "fisheye";
+  const bool same =
+    document.at("camera_model") == (fisheye ? "OPENCV_FISHEYE" : "OPENCV") && document.at("is_fisheye") == fisheye;
   judge.holds("model", file, picture.name, same, document.at("camera_model"), camera->model);
   const auto known = camera->numbers.find("distortion");
   std::vector<double> expected = known == camera->numbers.end() ? std::vector<double>() : known->second;
@@ -55,12 +59,10 @@ void judgeLens(
 void judgePose(ExportJudge& judge, const std::string& file, const Json& rows, const ExportedName& picture)
 {
   Eigen::Matrix4d M;
-  for (int i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < std::max<std::size_t>(4, rows.size()); ++i)
   {
-    for (int k = 0; k < 4; ++k)
-    {
-      M(i, k) = rows.at(std::size_t(i)).at(std::size_t(k));
-    }
+    const std::vector<double> row = numberList(rows.at(i), i < 4 ? 4 : 0);
+    M.row(Eigen::Index(i)) = Eigen::Map<const Eigen::RowVector4d>(row.data());
   }
   Eigen::Matrix3d turn = M.topLeftCorner<3, 3>();
   turn.col(1) *= -1; // y up, z back
@@ -80,14 +82,18 @@ void judgeFrame(ExportJudge& judge, const std::string& file, const Json& documen
   }
   judgeLens(judge, file, document, frame, *picture);
   judgePose(judge, file, frame.at("transform_matrix"), *picture);
-  for (const char* key : { "depth_path", "depth_file_path", "mask_path" })
+  for (const auto& [key, folder] : { std::pair<const char*, const char*>{ "depth_path", "depth/" },
+         { "depth_file_path", "depth/" }, { "mask_path", "masks/" } })
   {
-    if (frame.contains(key))
+    const std::string expected = folder + stemOf(path) + ".png";
+    const std::string found = frame.value(key, "");
+    const bool there = judge.source().exported(expected) != nullptr;
+    judge.holds("names", file, path + ' ' + key, found == (there ? expected : ""), found, expected);
+    if (there && found == expected && folder == std::string("depth/"))
     {
-      const std::string name = frame.at(key);
-      const ExportedFile* one = judge.source().exported(name);
-      const bool own = one && one->file.camera == picture->camera && one->file.frame == picture->frame;
-      judge.holds("names", file, key, own, name, "a file of the picture");
+      const double step = numberOf(judge.source().exported(expected)->encoding, "scale", 0);
+      judge.number("depth scale", "scene units", file, key, document.at("integer_depth_scale"), step, 0);
+      judge.holds("depth scale", file, key, document.at("enable_depth_loading") == true, "not enabled", "enabled");
     }
   }
 }
@@ -95,11 +101,17 @@ void judgeFrame(ExportJudge& judge, const std::string& file, const Json& documen
 void judgePoints(ExportJudge& judge, const std::string& name)
 {
   const std::string bytes = readFile(judge.source().path(name));
-  const std::size_t head = bytes.find("end_header\n") + 11;
+  const std::size_t head = std::min(bytes.find("end_header\n"), bytes.size()) + 11;
   std::vector<TrackPoint> points = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
   points.erase(
     std::remove_if(points.begin(), points.end(), [](const TrackPoint& one) { return !one.isStatic; }), points.end());
   constexpr std::size_t row = 15; // three float32, three bytes
+  std::string expected = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points.size()) + '\n';
+  for (const char* property : { "float x", "float y", "float z", "uchar red", "uchar green", "uchar blue" })
+  {
+    expected += std::string("property ") + property + '\n';
+  }
+  judge.holds("points", name, "head", bytes.substr(0, head) == expected + "end_header\n", "another", expected);
   judge.number("points", "", name, "bytes", double(bytes.size()), double(head + row * points.size()), 0);
   for (std::size_t i = 0; i < points.size() && head + row * (i + 1) <= bytes.size(); ++i)
   {

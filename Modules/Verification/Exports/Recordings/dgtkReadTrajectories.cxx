@@ -170,6 +170,7 @@ void judgeSequence(ExportJudge& judge, const std::string& folder)
 {
   const std::vector<TumPicture> rgb = listOf(judge, folder, "rgb.txt");
   const std::vector<TumPicture> depth = listOf(judge, folder, "depth.txt");
+  judge.number("associations", "lines", folder + "depth.txt", "", double(depth.size()), double(rgb.size()), 0);
   judgeTrajectory(judge, folder + "groundtruth.txt", rgb);
   const bool eth = judge.source().convention("dialect") == "eth3d-slam";
   const std::string file = folder + (eth ? "associated.txt" : "associations.txt");
@@ -188,9 +189,11 @@ void judgeSequence(ExportJudge& judge, const std::string& folder)
   }
   const std::string calibration = folder + "calibration.txt";
   const auto numbers = linesOf(judge.source().path(calibration));
+  judge.number("intrinsics", "lines", calibration, "", double(numbers.size()), 1, 0);
   for (const TumPicture& one : rgb)
   {
-    const std::vector<double> n = numbersIn(judge.source().path(calibration), 1, numbers.at(0), 4);
+    const std::vector<double> n =
+      numbersIn(judge.source().path(calibration), 1, numbers.empty() ? std::vector<std::string>() : numbers[0], 4);
     Eigen::Matrix3d K;
     K << n[0], 0, n[2] + 0.5, 0, isIcl(judge.source()) ? -n[1] : n[1], n[3] + 0.5, 0, 0, 1;
     if (one.picture)

@@ -2,9 +2,11 @@
 #include "dgtkError.h"
 #include "dgtkExportJudge.h"
 #include "dgtkFile.h"
+#include "dgtkGltfStructure.h"
 #include "dgtkJsonFile.h"
 #include "dgtkPlyFile.h"
 #include "dgtkReadTexts.h"
+#include "dgtkUtf8.h"
 
 #include <Eigen/Geometry>
 
@@ -21,57 +23,6 @@ namespace
 using Json = nlohmann::json;
 constexpr double single = 5e-7; // of float32 numbers that have been multiplied a few times
 
-/// The numbers of an accessor, a row for each element.
-class Accessors
-{
-public:
-  Accessors(const Json& asset, const std::string& folder)
-    : Asset(asset)
-    , Folder(folder)
-  {
-    for (const Json& one : asset.value("buffers", Json::array()))
-    {
-      this->Buffers.push_back(readFile(folder + '/' + one.at("uri").get<std::string>()));
-      this->Right = this->Right && this->Buffers.back().size() == one.at("byteLength").get<std::size_t>();
-    }
-  }
-
-  Eigen::MatrixXd read(std::size_t index) const
-  {
-    const Json& one = this->Asset.at("accessors").at(index);
-    const Json& view = this->Asset.at("bufferViews").at(one.at("bufferView").get<std::size_t>());
-    const std::string& buffer = this->Buffers.at(view.at("buffer").get<std::size_t>());
-    const std::string type = one.at("type");
-    const auto columns = static_cast<std::size_t>(type == "SCALAR" ? 1 : type.back() - '0');
-    const std::size_t rows = one.at("count");
-    const bool whole = one.at("componentType") == 5125;
-    const std::size_t at = view.value("byteOffset", std::size_t(0)) + one.value("byteOffset", std::size_t(0));
-    const std::size_t bytes = 4 * rows * columns;
-    if ((!whole && one.at("componentType") != 5126) || view.contains("byteStride") || at + bytes > buffer.size() ||
-        bytes > view.at("byteLength").get<std::size_t>())
-    {
-      throw InputError(this->Folder + "/scene.gltf", 0, "accessor " + std::to_string(index) + " cannot be read");
-    }
-    Eigen::MatrixXd values(rows, columns);
-    for (std::size_t i = 0; i < rows * columns; ++i)
-    {
-      std::uint32_t number = 0;
-      float real = 0;
-      std::memcpy(&number, buffer.data() + at + 4 * i, 4);
-      std::memcpy(&real, &number, 4);
-      values(Eigen::Index(i / columns), Eigen::Index(i % columns)) = whole ? double(number) : double(real);
-    }
-    return values;
-  }
-  bool hasRightSizes() const { return this->Right; }
-
-private:
-  const Json& Asset;
-  std::string Folder;
-  std::vector<std::string> Buffers;
-  bool Right = true;
-};
-
 /// What moves a node.
 struct GltfChannel
 {
@@ -86,16 +37,6 @@ struct GltfChannel
   }
 };
 
-Eigen::VectorXd listOf(const Json& list)
-{
-  Eigen::VectorXd values(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i)
-  {
-    values[Eigen::Index(i)] = list[i];
-  }
-  return values;
-}
-
 class Asset
 {
 public:
@@ -103,7 +44,7 @@ public:
     : Judge(judge)
     , File(file)
     , Document(document)
-    , Numbers(document, judge.source().folder())
+    , Numbers(document, judge.source().folder(), file)
     , Metres(metresOf(judge.source()))
   {
     for (const PoseRecord& pose : readPoses(judge.source().dataset() + '/' + posesName))
@@ -126,7 +67,7 @@ public:
 
   void judge()
   {
-    this->holds("asset", this->Document.at("asset").at("version") == "2.0" && this->Numbers.hasRightSizes());
+    judgeGltfStructure(this->Judge, this->File, this->Document, this->Numbers);
     this->readAnimations();
     const Json& nodes = this->Document.at("nodes");
     std::set<std::size_t> children;
@@ -134,7 +75,9 @@ public:
     {
       children.insert(child.get<std::size_t>());
     }
-    this->holds("nodes", children.size() == nodes.size() - 1 && children.count(0) == 0);
+    this->holds("nodes", children.size() == nodes.size() - 1 && children.count(0) == 0 &&
+                           *children.rbegin() < nodes.size() && nodes.at(0).at("children").size() == children.size() &&
+                           nodes.at(0).at("name") == "world");
     const Eigen::Matrix3d turn = this->affine(0, 0).linear();
     this->holds("world", (turn - this->Up).cwiseAbs().maxCoeff() < 1e-12 && this->Channels.count(0) == 0);
     for (std::size_t i = 1; i < nodes.size(); ++i)
@@ -153,8 +96,18 @@ public:
         this->judgeLight(i, node);
       }
     }
-    this->Judge.number("cameras", "pictures", this->File, "of nodes", double(this->Pictures),
-      double(this->Judge.source().record().names.size()), 0);
+    std::set<std::string> cameras;
+    for (const ExportedName& name : this->Judge.source().record().names)
+    {
+      cameras.insert(name.camera);
+    }
+    std::size_t pictures = 0;
+    for (const std::string& camera : cameras)
+    {
+      pictures += std::size_t(std::count_if(this->Frames.begin(), this->Frames.end(),
+        [&](int frame) { return this->Judge.source().camera(camera, frame) != nullptr; }));
+    }
+    this->Judge.number("cameras", "pictures", this->File, "of nodes", double(this->Pictures), double(pictures), 0);
     this->Judge.number("objects", "objects", this->File, "of nodes", double(this->Ids.size()),
       double(this->Judge.source().objects().size()), 0);
     this->judgeTextures();
@@ -178,9 +131,9 @@ private:
         one.times = this->Numbers.read(sampler.at("input")).col(0);
         one.values = this->Numbers.read(sampler.at("output"));
         const bool rising = std::is_sorted(one.times.data(), one.times.data() + one.times.size());
-        this->holds(
-          "animation", sampler.at("interpolation") == "LINEAR" && rising && one.values.rows() == one.times.size());
-        this->Channels[target.at("node")][target.at("path")] = one;
+        const bool first = this->Channels[target.at("node")].emplace(target.at("path"), one).second;
+        this->holds("animation",
+          sampler.at("interpolation") == "LINEAR" && rising && first && one.values.rows() == one.times.size());
       }
     }
   }
@@ -190,12 +143,20 @@ private:
     const auto channels = this->Channels.find(node);
     const auto channel = channels == this->Channels.end() ? std::map<std::string, GltfChannel>::const_iterator()
                                                           : channels->second.find(path);
+    const Json& one = this->Document.at("nodes").at(node);
+    const Eigen::VectorXd still = one.contains(path) ? gltfList(one.at(path), std::size_t(usual.size())) : usual;
     if (channels != this->Channels.end() && channel != channels->second.end())
     {
+      const Eigen::VectorXd first = channel->second.at(this->timeOf(*this->Frames.begin()));
+      this->Judge.number("pose of nodes", "of the largest number", this->File,
+        "nodes/" + std::to_string(node) + ' ' + path,
+        first.size() == still.size()
+          ? std::min((first - still).norm(), (first + still).norm()) / std::max(1.0, still.norm())
+          : infinite,
+        0, single);
       return channel->second.at(this->timeOf(frame));
     }
-    const Json& one = this->Document.at("nodes").at(node);
-    return one.contains(path) ? listOf(one.at(path)) : usual;
+    return still;
   }
 
   double timeOf(int frame) const { return frame / this->Judge.source().manifest().fps; }
@@ -248,13 +209,16 @@ private:
         continue;
       }
       ++this->Pictures;
+      this->holds("names", name->frame == frame && node.at("name") == utf8FromBytes(name->camera) &&
+                             camera.at("name") == utf8FromBytes(name->camera));
+      this->judgeRange(perspective, *name);
       const Eigen::Affine3d pose = this->affine(index, frame);
       const Eigen::Matrix3d R = flip.asDiagonal() * pose.linear().transpose();
       this->Judge.pose(this->File, name->camera, frame, R, -(R * pose.translation()) / this->Metres, 2e-6);
       Eigen::Matrix3d K;
-      for (int i = 0; i < 9; ++i)
+      for (std::size_t i = 0; i < std::max<std::size_t>(3, extras.at("K").size()); ++i)
       {
-        K(i / 3, i % 3) = extras.at("K").at(std::size_t(i / 3)).at(std::size_t(i % 3));
+        K.row(Eigen::Index(i)) = gltfList(extras.at("K").at(i), i < 3 ? 3 : 0).transpose();
       }
       this->Judge.size(this->File, name->camera, frame, extras.at("width"), extras.at("height"));
       this->Judge.intrinsics(this->File, name->camera, frame, K, 1e-9);
@@ -267,13 +231,27 @@ private:
     }
   }
 
+  /// Metres that a camera sees.
+  void judgeRange(const Json& perspective, const ExportedName& name)
+  {
+    const CameraRecord* camera = this->Judge.source().camera(name.camera, name.frame);
+    const double near = camera ? camera->near * this->Metres : 0;
+    const double far = camera ? camera->far * this->Metres : 0;
+    this->Judge.number("range", "m", this->File, name.camera, perspective.at("znear"), near, 1e-9 * near);
+    if (std::isfinite(far) && far > near)
+    {
+      this->Judge.number("range", "m", this->File, name.camera, perspective.at("zfar"), far, 1e-9 * far);
+    }
+  }
+
   void judgeObject(std::size_t index, const Json& node)
   {
     const Json& extras = node.at("extras");
     const std::uint32_t id = extras.at("id");
     const ObjectRecord* object = this->Judge.source().object(id);
-    this->holds("object", object && this->Ids.insert(id).second && extras.at("class") == object->objectClass &&
-                            extras.at("deforming") == object->deforming);
+    this->holds(
+      "object", object && this->Ids.insert(id).second && extras.at("class") == utf8FromBytes(object->objectClass) &&
+                  extras.at("deforming") == object->deforming && node.at("name") == utf8FromBytes(object->name));
     if (!object)
     {
       return;
@@ -281,18 +259,24 @@ private:
     const std::string path = this->Judge.source().dataset() + '/' + object->geometryFile;
     const PlyFile model(path);
     const Json& mesh = this->Document.at("meshes").at(node.at("mesh").get<std::size_t>());
+    this->holds("mesh", mesh.at("name") == utf8FromBytes(object->geometryFile));
+    for (const Json& range : extras.at("visible_frames"))
+    {
+      const std::vector<double> ends = numberList(range, 2);
+      this->holds("visible frames", this->Frames.count(int(ends[0])) > 0 && this->Frames.count(int(ends[1])) > 0);
+    }
     const Eigen::MatrixXd points =
       this->Numbers.read(mesh.at("primitives").at(0).at("attributes").at("POSITION")).transpose();
     this->judgeTimes(index);
     for (const int frame : this->Frames)
     {
       const PoseRecord& pose = this->Poses.at({ frame, id });
-      bool listed = false;
+      int listed = 0;
       for (const Json& range : extras.at("visible_frames"))
       {
-        listed = listed || (frame >= range.at(0).get<int>() && frame <= range.at(1).get<int>());
+        listed += frame >= range.at(0).get<int>() && frame <= range.at(1).get<int>();
       }
-      this->holds("visible frames", listed == pose.visible);
+      this->holds("visible frames", listed == int(pose.visible));
       const Eigen::Affine3d world = this->affine(index, frame);
       this->holds("determinant", world.linear().determinant() > 0);
       double largest = points.cols() == Eigen::Index(model.vertices()) ? 0 : infinite;
@@ -307,7 +291,9 @@ private:
       this->Judge.number(
         "vertices", "of the distance from the origin", this->File, object->name, largest / size, 0, 1e-6);
     }
-    this->judgeMesh(mesh, model, this->Poses.at({ *this->Frames.begin(), id }).matrix.leftCols<3>().determinant() < 0);
+    const bool mirrored = this->Poses.at({ *this->Frames.begin(), id }).matrix.leftCols<3>().determinant() < 0;
+    this->holds("mirrored", extras.at("mirrored") == mirrored);
+    this->judgeMesh(mesh, model, mirrored);
   }
 
   static std::array<std::size_t, 3> sortedCorners(std::array<std::size_t, 3> corners)
@@ -344,7 +330,7 @@ private:
       const Json& attributes = primitive.at("attributes");
       const Json& material = this->Document.at("materials").at(primitive.at("material").get<std::size_t>());
       const std::string picture = this->pictureOf(material);
-      const Eigen::VectorXd factor = listOf(material.at("pbrMetallicRoughness").at("baseColorFactor"));
+      const Eigen::VectorXd factor = gltfList(material.at("pbrMetallicRoughness").at("baseColorFactor"), 4);
       const Eigen::MatrixXd colors = attributes.contains("COLOR_0")
                                        ? this->Numbers.read(attributes["COLOR_0"])
                                        : Eigen::MatrixXd::Ones(Eigen::Index(model.vertices()), 3);
@@ -393,6 +379,12 @@ private:
 
   void judgeAttributes(const std::string& where, const Json& attributes, const PlyFile& model, bool mirrored)
   {
+    bool unit = true;
+    for (std::size_t i = 0; i < model.vertices(); ++i)
+    {
+      unit = unit && model.vertex(i).normal.cast<double>().norm() > 1e-6;
+    }
+    this->Judge.holds("normals", this->File, where, attributes.contains("NORMAL") == unit, "another", "as the model");
     if (attributes.contains("NORMAL"))
     {
       const Eigen::MatrixXd normals = this->Numbers.read(attributes["NORMAL"]);
@@ -419,7 +411,7 @@ private:
     }
   }
 
-  /// Kinds and places of lights that do not move; how bright they are is a convention.
+  /// Lights that do not move. A diffuse white surface facing one a metre away is as bright as the light is: pi candela.
   void judgeLight(std::size_t index, const Json& node)
   {
     const std::size_t number = node.at("extensions").at("KHR_lights_punctual").at("light");
@@ -434,13 +426,32 @@ private:
     {
       return;
     }
-    const Eigen::Vector3d place = found->contains("position") ? listOf(found->at("position")) : Eigen::Vector3d::Zero();
-    const Eigen::Vector3d target = found->contains("target") ? listOf(found->at("target")) : Eigen::Vector3d::Zero();
+    const auto vector = [&](const char* key, double usual) {
+      return Eigen::Vector3d(found->contains(key) ? gltfList(found->at(key), 3) : Eigen::VectorXd::Constant(3, usual));
+    };
+    const Eigen::Vector3d place = vector("position", 0);
+    const Eigen::Vector3d target = vector("target", 0);
     const Eigen::Affine3d world = this->affine(index, *this->Frames.begin());
     const Eigen::Vector3d along = (target - place).normalized();
     const double apart = (world.translation() / this->Metres - place).norm() / std::max(1.0, place.norm());
     const double turn = light.at("type") == "point" ? 0 : (world.linear() * Eigen::Vector3d(0, 0, -1) - along).norm();
     this->Judge.number("lights", "1", this->File, light.at("name"), apart + turn, 0, 1e-9);
+    this->holds("light", node.at("name") == light.at("name"));
+    const auto moves = [&](const char* key) { return found->contains(key) && found->at(key).is_object(); };
+    if (!moves("diffuse") && !moves("intensity") && !moves("attenuation"))
+    {
+      const Eigen::Vector3d diffuse = vector("diffuse", 1);
+      const double most = diffuse.maxCoeff();
+      const Eigen::Vector3d k = found->contains("attenuation") ? vector("attenuation", 0) : Eigen::Vector3d(1, 0, 0);
+      const Eigen::Vector3d metre(1, 1 / this->Metres, 1 / (this->Metres * this->Metres)); // in scene units
+      const double fall = light.at("type") == "directional" ? 1 : k.dot(metre);
+      const double expected = found->value("intensity", 1.0) * most * std::acos(-1.0) / fall;
+      this->Judge.number(
+        "brightness", "1", this->File, light.at("name"), light.at("intensity"), expected, 1e-9 * expected);
+      const Eigen::Vector3d color = gltfList(light.at("color"), 3);
+      this->Judge.number(
+        "brightness", "1", this->File, light.at("name"), (color * most - diffuse).norm(), 0, 1e-9 * most);
+    }
   }
 
   /// Pictures are the dataset's.
@@ -456,13 +467,12 @@ private:
         this->Judge.holds("textures", one.file.path, expected, same, "other bytes", "the dataset's file");
       }
     }
-    this->Judge.holds("asset", "scene.bin", "size", this->Numbers.hasRightSizes(), "another", "that of the document");
   }
 
   ExportJudge& Judge;
   std::string File;
   const Json& Document;
-  Accessors Numbers;
+  GltfNumbers Numbers;
   double Metres;
   Eigen::Matrix3d Up;
   Json Lights;

@@ -38,16 +38,19 @@ std::map<std::string, std::vector<double>> calibrationOf(const std::string& path
   return found;
 }
 
-double largestDisparity(const ExportedFrom& source, const ExportedName& picture, double sign)
+/// The least and the most of a picture's disparities; 0 and 0 for none.
+std::pair<double, double> rangeOf(const ExportedFrom& source, const ExportedName& picture)
 {
   const PicturePointer layer = source.picture(picture.camera, picture.frame, "disparity");
-  double largest = 0;
+  double least = infinite;
+  double most = -infinite;
   for (int i = 0; i < layer->width() * layer->height(); ++i)
   {
-    const double value = sign * layer->at(i % layer->width(), i / layer->width());
-    largest = std::isfinite(value) ? std::max(largest, value) : largest;
+    const double value = layer->at(i % layer->width(), i / layer->width());
+    least = std::isfinite(value) ? std::min(least, value) : least;
+    most = std::isfinite(value) ? std::max(most, value) : most;
   }
-  return largest;
+  return most < least ? std::pair(0.0, 0.0) : std::pair(least, most);
 }
 
 void judgeCalibration(ExportJudge& judge, const std::string& file, const ExportedName& left, const ExportedName& right)
@@ -67,11 +70,12 @@ void judgeCalibration(ExportJudge& judge, const std::string& file, const Exporte
     judge.number("doffs", "px", file, "", one("doffs"), b->K(0, 2) - a->K(0, 2), 1e-9);
     judge.number("baseline", "mm", file, "", one("baseline"), (a->t - b->t).x() * metresOf(source) * 1000, 1e-9);
   }
-  const double most = largestDisparity(source, left, 1);
-  const double least = -largestDisparity(source, left, -1);
+  const auto [least, most] = rangeOf(source, left);
   judge.holds("range", file, "ndisp, vmin, vmax",
-    one("ndisp") > most && one("vmax") >= most && one("vmin") <= std::max(0.0, least) + most && one("isint") == 0,
-    "a range without it", "all disparities");
+    one("ndisp") == std::max(1.0, std::floor(most) + 2) && one("vmax") == std::ceil(most) &&
+      one("vmin") == std::floor(least) && one("isint") == 0,
+    "another range", "that of all disparities");
+  judge.number("offsets", "px", file, "dyavg, dymax", std::abs(one("dyavg")) + std::abs(one("dymax")), 0, 0);
 }
 } // namespace
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkGltfStructure_h
+#define dgtkGltfStructure_h
+
+// Private to Verification: what the specification of glTF 2.0 asks of any asset.
+
+#include "dgtkExportJudge.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A list of so many numbers; std::out_of_range for another.
+Eigen::VectorXd gltfList(const nlohmann::json& list, std::size_t count);
+
+/// The numbers of an asset's accessors.
+class GltfNumbers
+{
+public:
+  GltfNumbers(const nlohmann::json& asset, const std::string& folder, const std::string& file);
+  /// A row for each element. Throws InputError.
+  Eigen::MatrixXd read(std::size_t accessor) const;
+  bool hasRightSizes() const { return this->Right; } ///< of its files
+
+private:
+  const nlohmann::json& Asset;
+  std::string Path;
+  std::vector<std::string> Buffers;
+  bool Right = true;
+};
+
+/// One scene with one root; all that is listed is used; limits and targets of accessors; what is the same in all
+/// cameras and materials.
+void judgeGltfStructure(
+  ExportJudge& judge, const std::string& file, const nlohmann::json& document, const GltfNumbers& numbers);
+
+} // namespace dgtk
+
+#endif
