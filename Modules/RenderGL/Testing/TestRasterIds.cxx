@@ -254,6 +254,10 @@ TEST(RasterIds, InstancesShareTheirGeometry)
   few->instances.push_back(many->instances[0]);
   const VisibilityBuffer hits = render(many, view);
   EXPECT_EQ(hits.at(32, 24).object, 1001u);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static_cast<void>(before); // sanitizers keep what is freed
+#else
   // Mesa takes about 100 MB to sort six million triangles; a thousand copies would be 300 MB more.
   EXPECT_LT(double(residentBytes()) - double(before), 200e6);
+#endif
 }

@@ -291,12 +291,13 @@ TEST(Placement, ABrickSlidesOffWhatIsTooSteep)
     const double half = 10 * 3.14159265358979323846 / 180;
     ObjectDescription& slope = made.add("slope", "brick.ac");
     slope.scale = Eigen::Vector3d(10, 1, 10);
-    slope.orientation = Quaternion{ std::cos(half), 0, 0, std::sin(half) };
+    const Quaternion turn{ std::cos(half), 0, 0, std::sin(half) };
+    slope.orientation = turn;
     made
       .add("brick", "brick.ac",
         R"({ "on": "slope", "drop": { "height": 0, "friction": )" + std::to_string(friction) +
           R"( }, "region": [[-0.01, -0.01], [0.01, 0.01]] })")
-      .orientation = slope.orientation;
+      .orientation = turn;
     const std::vector<PlaceOutcome> placed = made.place();
     return placed[0].note.why;
   };

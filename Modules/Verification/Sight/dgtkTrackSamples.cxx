@@ -19,6 +19,7 @@ constexpr double reachSlack = 1e-6;
 /// Part of the depth within which a surface coincides with the nearest one.
 constexpr double coincident = 1e-9;
 constexpr int directions = 16;
+constexpr double mostPixels = 1e9;
 
 class TrackSampleCheck
 {
@@ -107,6 +108,10 @@ private:
 
   void take(const TrackPlace& place)
   {
+    if (!(std::abs(place.u) < mostPixels && std::abs(place.v) < mostPixels)) // wrong numbers are far from all
+    {
+      return;
+    }
     const int column = int(std::floor(place.u / this->Step));
     const int row = int(std::floor(place.v / this->Step));
     for (int y = std::max(0, row - 1); y <= std::min(row + 1, this->Rows - 1); ++y)

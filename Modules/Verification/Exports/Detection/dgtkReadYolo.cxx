@@ -98,6 +98,11 @@ void judgeRectangle(ExportJudge& judge, const std::string& file, const ExportedN
   {
     return;
   }
+  const Eigen::Map<const Eigen::Matrix<double, 2, 4>> corners(p.data());
+  const Eigen::Vector2d along = corners.col(1) - corners.col(0);
+  const Eigen::Vector2d aside = corners.col(3) - corners.col(0);
+  judge.number("rectangle", "px", file, where, (corners.col(0) + along + aside - corners.col(2)).norm(), 0, tolerance);
+  judge.number("rectangle", "px", file, where, along.dot(aside) / std::max(1.0, along.norm()), 0, tolerance);
   const PicturePointer ids = judge.source().picture(picture.camera, picture.frame, "objects");
   double area = 1;
   for (std::size_t i = 0; i < 4; ++i)

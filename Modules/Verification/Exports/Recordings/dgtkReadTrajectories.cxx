@@ -17,12 +17,12 @@ namespace
 double timeOf(const ExportedFrom& source, int frame) { return frame / source.manifest().fps; }
 
 /// The pictures of a folder of a sequence, in their order.
-std::vector<const ExportedName*> picturesIn(ExportJudge& judge, const std::string& file, const std::string& folder)
+std::vector<const ExportedName*> picturesIn(const ExportedFrom& source, const std::string& folder)
 {
   std::vector<const ExportedName*> pictures;
-  while (judge.source().named(folder + digitsOf(pictures.size(), 6) + ".png"))
+  while (const ExportedName* next = source.named(folder + digitsOf(pictures.size(), 6) + ".png"))
   {
-    pictures.push_back(pictureOf(judge, file, folder + digitsOf(pictures.size(), 6) + ".png"));
+    pictures.push_back(next);
   }
   return pictures;
 }
@@ -89,8 +89,8 @@ void readKittiOdometry(ExportJudge& judge)
   for (const ExportedFile* one : filesIn(judge.source(), "poses/", "txt"))
   {
     const std::string folder = "sequences/" + stemOf(one->file.path) + '/';
-    const auto lefts = picturesIn(judge, one->file.path, folder + "image_2/");
-    const auto rights = picturesIn(judge, one->file.path, folder + "image_3/");
+    const auto lefts = picturesIn(judge.source(), folder + "image_2/");
+    const auto rights = picturesIn(judge.source(), folder + "image_3/");
     judge.holds("pictures", one->file.path, folder, !lefts.empty() && (rights.empty() || rights.size() == lefts.size()),
       std::to_string(lefts.size()) + " and " + std::to_string(rights.size()), "as many on both sides");
     if (!lefts.empty())
