@@ -339,7 +339,8 @@ ALONE = {form: [Plant(*one) for one in rows] for form, rows in {
                     ("lines", "train/metadata.jsonl", lambda data: data + data.splitlines(True)[0])],
     "kitti2015": [("flow_forward", "training/flow_occ/000000_10.png", pixel(12, 12)), ("disparity_forward", "training/disp_occ_1/000000_10.png", pixel(12, 12))],
     "mcap": [("quaternion", "dataset.mcap", upright), ("lens", "dataset.mcap", word("plumb_bob", "plumb_bop")), ("objects", "dataset.mcap", word("_2", "_7"))],
-    "rosbag": [("quaternion", "dataset.bag", upright), ("lens", "dataset.bag", word("plumb_bob", "plumb_bop")), ("objects", "dataset.bag", word("_2", "_7"))],
+    "rosbag": [("quaternion", "dataset.bag", upright), ("lens", "dataset.bag", word("plumb_bob", "plumb_bop")), ("objects", "dataset.bag", word("_2", "_7")),
+               ("recording", "dataset.bag", word("32FC1", "32FC2"))],
     "sintel": [("flow_forward_class", "training/occlusions/cam_L/frame_0001.png", pixel(12, 12, 255)),
                ("disparity_class", "training/outofframe/cam_L/frame_0001.png", pixel(12, 12, 255))],
     "spring": [(layer, f"train/0001/{name}_left/{name}_left_0001.{kind}", stored(key, lambda values: values + 1)) for layer, name, kind, key in

@@ -123,6 +123,12 @@ public:
   /// Any number of a document: "what" is the row's layer ("visible fraction"), `where` says which in words.
   void number(const std::string& what, const std::string& unit, const std::string& file, const std::string& where,
     double found, double expected, double tolerance);
+  /// One that is exact, such as a count.
+  void exact(const std::string& what, const std::string& unit, const std::string& file, const std::string& where,
+    double found, double expected)
+  {
+    this->number(what, unit, file, where, found, expected, 0);
+  }
   /// Something that is right or wrong.
   void holds(const std::string& what, const std::string& file, const std::string& where, bool right,
     const std::string& found, const std::string& expected);

@@ -121,14 +121,13 @@ void BopAnnotations::judgeRest(const std::string& folder, std::set<int> models, 
         this->Judge.size(
           this->File, picture ? picture->camera : "", picture ? picture->frame : 0, one.at("width"), one.at("height"));
       }
-      this->Judge.number("coco", "categories", this->File, "left out", double(models.size()), 0, 0);
-      this->Judge.number(
-        "coco", "annotations", this->File, "", double(this->Document.at("annotations").size()), double(instances), 0);
+      this->Judge.exact("coco", "categories", this->File, "left out", double(models.size()), 0);
+      this->Judge.exact(
+        "coco", "annotations", this->File, "", double(this->Document.at("annotations").size()), double(instances));
       const auto& names = source.record().names;
       const auto pictures = std::count_if(
         names.begin(), names.end(), [&](const ExportedName& one) { return one.name.rfind(folder, 0) == 0; });
-      this->Judge.number(
-        "coco", "images", this->File, "", double(this->Document.at("images").size()), double(pictures), 0);
+      this->Judge.exact("coco", "images", this->File, "", double(this->Document.at("images").size()), double(pictures));
     });
 }
 

@@ -120,7 +120,7 @@ public:
     for (const auto& [name, document] : { std::pair<const char*, const Json*>{ "scene_camera.json", &cameras },
            { "scene_gt.json", &poses }, { "scene_gt_info.json", &infos } })
     {
-      this->Judge.number("pictures", "", folder + name, "", double(document->size()), double(pictures), 0);
+      this->Judge.exact("pictures", "", folder + name, "", double(document->size()), double(pictures));
     }
     for (const auto& [image, camera] : cameras.items())
     {
@@ -167,11 +167,11 @@ public:
             const std::array<int, 3> key{ one.at("scene_id"), one.at("im_id"), one.at("obj_id") };
             const auto found = this->Targets.find(key);
             const int count = found == this->Targets.end() ? 0 : found->second;
-            this->Judge.number("targets", "instances", file, one.dump(), one.at("inst_count"), count, 0);
+            this->Judge.exact("targets", "instances", file, one.dump(), one.at("inst_count"), count);
             this->Targets.erase(key);
           }
         });
-      this->Judge.number("targets", "left", file, "all", double(this->Targets.size()), 0, 0);
+      this->Judge.exact("targets", "left", file, "all", double(this->Targets.size()), 0);
     }
   }
 
@@ -189,8 +189,8 @@ private:
     std::string depth = picture.name;
     depth.replace(depth.rfind("/rgb/"), 5, "/depth/").replace(depth.rfind('.'), std::string::npos, ".png");
     const ExportedFile* map = this->Judge.source().exported(depth);
-    this->Judge.number(
-      "depth_scale", "mm", file, depth, camera.at("depth_scale"), map ? numberOf(map->encoding, "scale", 0) : 0, 0);
+    this->Judge.exact(
+      "depth_scale", "mm", file, depth, camera.at("depth_scale"), map ? numberOf(map->encoding, "scale", 0) : 0);
   }
 
   void judgeInfo(const std::string& file, const Json& info, const BopPoints& points)
@@ -244,7 +244,7 @@ private:
     const std::vector<BoxRecord>& boxes = this->Judge.source().boxes(picture.camera, picture.frame);
     const std::string infoFile = folder + "scene_gt_info.json";
     const std::size_t infos = allInfos.contains(image) ? allInfos.at(image).size() : 0;
-    this->Judge.number("instances", "", file, picture.name, double(poses.size()), double(infos), 0);
+    this->Judge.exact("instances", "", file, picture.name, double(poses.size()), double(infos));
     const std::vector<PoseRecord> posed = this->Poses.at(this->Judge.source().partOf(picture.camera)).at(picture.frame);
     std::set<std::uint32_t> found;
     for (std::size_t i = 0; i < poses.size() && i < infos; ++i)
@@ -344,7 +344,7 @@ private:
   void judgeNumbers(const std::string& file, const std::string& where, const Json& info, const BoxRecord& box)
   {
     const auto number = [&](const char* key, double expected)
-    { this->Judge.number(key, "px", file, where, info.at(key), expected, 0); };
+    { this->Judge.exact(key, "px", file, where, info.at(key), expected); };
     number("px_count_all", double(box.pixelsWhole));
     number("px_count_visib", double(box.pixelsVisible));
     this->Judge.number("visib_fract", "1", file, where, info.at("visib_fract"),
@@ -381,8 +381,8 @@ private:
     {
       valid += mask[i] != 0 && depth[i] != 0;
     }
-    this->Judge.number(
-      "px_count_valid", "px", folder + "scene_gt_info.json", where, info.at("px_count_valid"), double(valid), 0);
+    this->Judge.exact(
+      "px_count_valid", "px", folder + "scene_gt_info.json", where, info.at("px_count_valid"), double(valid));
   }
 
   void judgeMasks(const std::string& folder, const std::string& image, std::size_t instance, const BoxRecord& box,

@@ -120,13 +120,13 @@ void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one
   const std::vector<char> whole = maskOf(one.at("amodal_segmentation"), image.width, image.height);
   judge.box(file, camera, frame, object, cornersOf(one.at("bbox")), 0);
   judge.mask(file, camera, frame, object, mask);
-  judge.number("area", "px", file, where, one.at("area"), double(std::count(mask.begin(), mask.end(), char(1))), 0);
+  judge.exact("area", "px", file, where, one.at("area"), double(std::count(mask.begin(), mask.end(), char(1))));
   judge.amodalMask(file, camera, frame, object, whole);
   judge.holds("amodal box", file, where, cornersOf(one.at("amodal_bbox")) == cornersOf(whole, image.width),
     one.at("amodal_bbox").dump(), "that of the mask");
   judge.holds("crowds", file, where, one.at("iscrowd") == 0, one.at("iscrowd").dump(), "0");
   const ObjectRecord* record = judge.source().object(camera, object);
-  judge.number("category", "id", file, where, one.at("category_id"), record ? record->classId : 0, 0);
+  judge.exact("category", "id", file, where, one.at("category_id"), record ? record->classId : 0);
   judge.holds("object", file, where, record && one.at("object") == utf8FromBytes(record->name), one.at("object").dump(),
     "the name of the object");
   for (const BoxRecord& box : judge.source().boxes(camera, frame))
@@ -158,7 +158,7 @@ void readKeypoints(
   int labelled = 0;
   const std::vector<std::string> names = category->at("keypoints");
   const std::vector<double> numbers = one.at("keypoints");
-  judge.number("keypoints", "px", file, where, double(numbers.size()), double(3 * names.size()), 0);
+  judge.exact("keypoints", "px", file, where, double(numbers.size()), double(3 * names.size()));
   for (std::size_t i = 0; i < names.size() && numbers.size() == 3 * names.size(); ++i)
   {
     const double v = numbers[3 * i + 2];
@@ -167,12 +167,12 @@ void readKeypoints(
       [&](const KeypointRecord& point) { return point.name == names[i]; });
     const int seen = own == box->keypoints.end() ? 0 : own->visibility;
     const std::string what = where + ", " + names[i];
-    judge.number("keypoints", "px", file, what, v, seen == 1 ? 2 : seen == 2 || seen == 3 ? 1 : 0, 0);
+    judge.exact("keypoints", "px", file, what, v, seen == 1 ? 2 : seen == 2 || seen == 3 ? 1 : 0);
     const bool there = v > 0 && own != box->keypoints.end() && own->pixel;
-    judge.number("keypoints", "px", file, what, numbers[3 * i], there ? own->pixel->x() - 0.5 : 0, 0);
-    judge.number("keypoints", "px", file, what, numbers[3 * i + 1], there ? own->pixel->y() - 0.5 : 0, 0);
+    judge.exact("keypoints", "px", file, what, numbers[3 * i], there ? own->pixel->x() - 0.5 : 0);
+    judge.exact("keypoints", "px", file, what, numbers[3 * i + 1], there ? own->pixel->y() - 0.5 : 0);
   }
-  judge.number("keypoints", "px", file, where, one.at("num_keypoints"), labelled, 0);
+  judge.exact("keypoints", "px", file, where, one.at("num_keypoints"), labelled);
 }
 
 std::uint64_t pointedObjects(const ExportedFrom& source, const CocoImage& image, const Json& categories)
@@ -234,14 +234,13 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
       }
       for (const auto& [id, image] : images)
       {
-        judge.number("annotations", "objects", file, image.picture->name, double(image.annotations),
-          double(pointed ? pointedObjects(judge.source(), image, categories) : visibleObjects(judge.source(), image)),
-          0);
+        judge.exact("annotations", "objects", file, image.picture->name, double(image.annotations),
+          double(pointed ? pointedObjects(judge.source(), image, categories) : visibleObjects(judge.source(), image)));
       }
       const std::vector<ExportedName>& names = judge.source().record().names;
       const auto pictures = std::count_if(
         names.begin(), names.end(), [&](const ExportedName& one) { return one.name.rfind(split + '/', 0) == 0; });
-      judge.number("images", "", file, split, double(images.size()), double(pictures), 0);
+      judge.exact("images", "", file, split, double(images.size()), double(pictures));
     });
 }
 } // namespace
@@ -249,7 +248,7 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
 void judgeCocoCategories(
   ExportJudge& judge, const std::string& file, const Json& categories, const std::vector<ClassRecord>& classes)
 {
-  judge.number("categories", "", file, "all", double(categories.size()), double(classes.size()), 0);
+  judge.exact("categories", "", file, "all", double(categories.size()), double(classes.size()));
   for (std::size_t i = 0; i < std::min(categories.size(), classes.size()); ++i)
   {
     const Json& one = categories[i];

@@ -65,7 +65,7 @@ void readSegments(ExportJudge& judge, const std::string& file, const std::string
       continue;
     }
     const Shown& own = found->second;
-    judge.number("area", "px", file, where, one.at("area"), double(own.area), 0);
+    judge.exact("area", "px", file, where, one.at("area"), double(own.area));
     const std::vector<double> box{ double(own.left), double(own.top), double(own.right + 1 - own.left),
       double(own.bottom + 1 - own.top) };
     judge.holds("crowds", file, where, one.at("iscrowd") == 0, one.at("iscrowd").dump(), "0");
@@ -126,7 +126,7 @@ void readDocument(ExportJudge& judge, const std::string& file)
         const ExportedName* name = judgeCocoImage(judge, file, split, one);
         judge.holds("ids", file, "image", images.emplace(one.at("id"), name).second, "an id twice", "each once");
       }
-      judge.number("annotations", "", file, "", double(document.at("annotations").size()), double(images.size()), 0);
+      judge.exact("annotations", "", file, "", double(document.at("annotations").size()), double(images.size()));
       for (const Json& one : document.at("annotations"))
       {
         const auto image = images.find(one.at("image_id").get<std::int64_t>());

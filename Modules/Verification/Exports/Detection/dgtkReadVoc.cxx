@@ -147,7 +147,7 @@ void judgePicture(ExportJudge& judge, const std::string& stem, const ExportedNam
       {
         const auto code = codes.find(ids->id(x, y));
         const double expected = code == codes.end() ? 0 : kind ? code->second.first : code->second.second;
-        judge.number("codes", "", map, picture.name, found.at(x, y), expected, 0);
+        judge.exact("codes", "", map, picture.name, found.at(x, y), expected);
       }
     }
   }
@@ -172,8 +172,8 @@ void readVoc(ExportJudge& judge)
     const std::string masks = "ImageSets/Segmentation/" + stemOf(file) + ".txt";
     judge.holds("pictures", masks, "", linesOf(judge.source().path(masks)) == lines, "others", "those of " + file);
   }
-  judge.number(
-    "pictures", "", "ImageSets", "all parts", double(listed.size()), double(judge.source().record().names.size()), 0);
+  judge.exact(
+    "pictures", "", "ImageSets", "all parts", double(listed.size()), double(judge.source().record().names.size()));
 }
 
 } // namespace dgtk

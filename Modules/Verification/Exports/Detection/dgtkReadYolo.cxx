@@ -93,7 +93,7 @@ void judgeRectangle(ExportJudge& judge, const std::string& file, const ExportedN
   const std::vector<double>& p)
 {
   const std::string where = picture.name + ", object " + std::to_string(box.id);
-  judge.number("rectangle", "px", file, where, double(p.size()), 8, 0);
+  judge.exact("rectangle", "px", file, where, double(p.size()), 8);
   if (p.size() != 8 || !box.visible)
   {
     return;
@@ -133,7 +133,7 @@ void judgeKeypoints(ExportJudge& judge, const std::string& file, const ExportedN
   const std::vector<double>& p, const std::vector<std::string>& names)
 {
   const std::string where = picture.name + ", object " + std::to_string(box.id);
-  judge.number("keypoints", "px", file, where, double(p.size()), double(4 + 3 * names.size()), 0);
+  judge.exact("keypoints", "px", file, where, double(p.size()), double(4 + 3 * names.size()));
   for (std::size_t i = 0; i < names.size() && p.size() == 4 + 3 * names.size(); ++i)
   {
     const auto own = std::find_if(
@@ -164,7 +164,7 @@ void judgePicture(ExportJudge& judge, const std::string& file, const ExportedNam
                 }),
     boxes.end());
   const std::vector<Label> labels = labelsIn(judge.source().path(file), *camera, kind == "poses");
-  judge.number("labels", "objects", file, picture.name, double(labels.size()), double(boxes.size()), 0);
+  judge.exact("labels", "objects", file, picture.name, double(labels.size()), double(boxes.size()));
   for (std::size_t i = 0; i < std::min(labels.size(), boxes.size()); ++i)
   {
     const ObjectRecord* object = judge.source().object(picture.camera, boxes[i].id);
@@ -239,8 +239,8 @@ void judgeYaml(ExportJudge& judge, const Names& names)
   {
     judge.holds("parts", file, part, said.count(part.substr(7)) > 0, "none", "a line");
   }
-  judge.number("names", "", file, "lists", lists, 1, 0);
-  judge.number("names", "", file, "classes", double(classes.size()), double(names.classes.size()), 0);
+  judge.exact("names", "", file, "lists", lists, 1);
+  judge.exact("names", "", file, "classes", double(classes.size()), double(names.classes.size()));
   for (std::size_t i = 0; i < std::min(classes.size(), names.classes.size()); ++i)
   {
     const std::string expected = utf8FromBytes(names.classes[i].name);

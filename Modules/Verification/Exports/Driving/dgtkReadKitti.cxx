@@ -35,7 +35,7 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const Numbers& all
   const std::string where = "camera " + number;
   judge.number("baseline", "m", file, where, P[3] / P[0], offset, 1e-9);
   judge.number("baseline", "m", file, where, T[0], offset, 1e-9);
-  judge.number("baseline", "m", file, where, P[7] + P[11] + T[1] + T[2], 0, 0);
+  judge.exact("baseline", "m", file, where, P[7] + P[11] + T[1] + T[2], 0);
   static const std::vector<double> none{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
   judge.holds("rotation", file, where,
     numbersOf(all, path, "R_rect_" + number, 9) == none && numbersOf(all, path, "R_" + number, 9) == none, "another",

@@ -173,7 +173,7 @@ void judgeCalibration(ExportJudge& judge, const std::string& file, const Exporte
     Eigen::Matrix3d K;
     K << P[0], P[1], P[2] + 0.5, P[4], P[5], P[6] + 0.5, P[8], P[9], P[10];
     judge.intrinsics(file, picture.camera, picture.frame, K, 1e-9);
-    judge.number("baseline", "m", file, name, std::abs(P[3]) + std::abs(P[7]) + std::abs(P[11]), 0, 0);
+    judge.exact("baseline", "m", file, name, std::abs(P[3]) + std::abs(P[7]) + std::abs(P[11]), 0);
   }
   static const std::vector<double> none{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
   judge.holds("rotation", file, "R0_rect", numbersOf(all, path, "R0_rect", 9) == none, "another", "none");
@@ -192,7 +192,7 @@ void judgeLabels(ExportJudge& judge, const std::string& file, const ExportedName
     std::remove_if(boxes.begin(), boxes.end(), [](const BoxRecord& box) { return !box.visible; }), boxes.end());
   const std::vector<KittiLabel> labels = labelsOf(judge.source().path(file));
   const std::string where = picture.camera + " at frame " + std::to_string(picture.frame);
-  judge.number("labels", "objects", file, where, double(labels.size()), double(boxes.size()), 0);
+  judge.exact("labels", "objects", file, where, double(labels.size()), double(boxes.size()));
   for (std::size_t i = 0; i < std::min(labels.size(), boxes.size()); ++i)
   {
     const LabelPlace place{ file, "line " + std::to_string(i + 1) };
@@ -223,7 +223,7 @@ void readKittiObject(ExportJudge& judge)
       judge.holds("lists", one->file.path, words[0], listed.insert(words[0]).second, "a picture twice", "each once");
     }
   }
-  judge.number("lists", "", "ImageSets", "all parts", double(listed.size()), double(source.record().names.size()), 0);
+  judge.exact("lists", "", "ImageSets", "all parts", double(listed.size()), double(source.record().names.size()));
 }
 
 } // namespace dgtk

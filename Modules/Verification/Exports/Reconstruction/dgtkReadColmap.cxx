@@ -396,10 +396,10 @@ private:
       const bool known = id >= 1 && std::size_t(id) <= this->Tracks.size();
       this->Judge.holds("points", file, "point " + std::to_string(id), known, "a point", "one of tracks/points.json");
       const bool same = !known || std::equal(point.color, point.color + 3, this->Tracks[std::size_t(id) - 1].color);
-      this->Judge.number("errors", "px", file, "point " + std::to_string(id), point.error, 0, 0);
+      this->Judge.exact("errors", "px", file, "point " + std::to_string(id), point.error, 0);
       this->Judge.holds("colors", file, "point " + std::to_string(id), same, "another", "that of tracks/points.json");
     }
-    this->Judge.number("tracks", "", file, "elements", double(elements), double(this->Places), 0);
+    this->Judge.exact("tracks", "", file, "elements", double(elements), double(this->Places));
     for (std::size_t i = 0; i < this->Tracks.size(); ++i)
     {
       const auto seen = this->Seen.find(std::int64_t(i) + 1);
@@ -446,8 +446,8 @@ void judgeLists(ExportJudge& judge, const std::string& top)
   {
     pictures += name.name.rfind(top + "images/", 0) == 0;
   }
-  judge.number("lists", "", fusion, "lines", double(names.size()), double(pictures), 0);
-  judge.number("lists", "", match, "lines", double(pairs.size()), double(2 * pictures), 0);
+  judge.exact("lists", "", fusion, "lines", double(names.size()), double(pictures));
+  judge.exact("lists", "", match, "lines", double(pairs.size()), double(2 * pictures));
   for (std::size_t i = 0; i < names.size() && 2 * i < pairs.size(); ++i)
   {
     pictureOf(judge, fusion, top + "images/" + names[i].at(0));

@@ -130,7 +130,7 @@ void judgeConfiguration(ExportJudge& judge, const std::string& file, const std::
   {
     several += rig.size() > 1 ? 1 : 0;
   }
-  judge.number("rigs", "", file, "rigs", double(all.size()), double(several), 0);
+  judge.exact("rigs", "", file, "rigs", double(all.size()), double(several));
   for (const nlohmann::json& one : all)
   {
     for (const nlohmann::json& camera : one.at("cameras"))
@@ -195,9 +195,9 @@ void judgeColmapRigs(ExportJudge& judge, const std::string& folder, const std::s
   {
     const auto has = [camera = image.camera](const auto& rig) { return rig.second.count(camera) > 0; };
     const std::string where = "picture " + std::to_string(number);
-    judge.number("rigs", "", file, where + ", frames", seen[number], 1, 0);
-    judge.number("rigs", "", folder + "rigs" + extension, where + ", rigs of its camera",
-      double(std::count_if(rigs.begin(), rigs.end(), has)), 1, 0);
+    judge.exact("rigs", "", file, where + ", frames", seen[number], 1);
+    judge.exact("rigs", "", folder + "rigs" + extension, where + ", rigs of its camera",
+      double(std::count_if(rigs.begin(), rigs.end(), has)), 1);
   }
   const std::string configuration = folder + "rig_config.json";
   useJson(judge.source().path(configuration), [&] { judgeConfiguration(judge, configuration, rigs); });

@@ -128,7 +128,7 @@ void judgePairs(ExportJudge& judge, const std::string& file)
   const std::vector<std::string> lines = allLines(path);
   const std::vector<ExportedName>& names = judge.source().record().names;
   const std::vector<TrackPoint> points = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
-  judge.number("pairs", "", file, "lines", double(lines.size()), double(2 * names.size() + 1), 0);
+  judge.exact("pairs", "", file, "lines", double(lines.size()), double(2 * names.size() + 1));
   judge.holds("pairs", file, "views", numbersIn(path, lines, 0) == std::vector<double>{ double(names.size()) },
     lines.empty() ? "" : lines[0], std::to_string(names.size()));
   for (std::size_t i = 0; 2 * i + 2 < lines.size() && i < names.size(); ++i)
@@ -137,7 +137,7 @@ void judgePairs(ExportJudge& judge, const std::string& file)
     const std::string where = "view " + std::to_string(i);
     judge.holds("pairs", file, where, numbersIn(path, lines, 2 * i + 1) == std::vector<double>{ double(i) },
       lines[2 * i + 1], std::to_string(i));
-    judge.number("pairs", "", file, where, double(row.size()), row.empty() ? 1 : 2 * row[0] + 1, 0);
+    judge.exact("pairs", "", file, where, double(row.size()), row.empty() ? 1 : 2 * row[0] + 1);
     for (std::size_t k = 1; k + 1 < row.size(); k += 2)
     {
       const auto other = std::size_t(row[k]);

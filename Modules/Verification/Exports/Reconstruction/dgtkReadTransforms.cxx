@@ -52,7 +52,7 @@ void judgeLens(
     fisheye ? std::vector<const char*>{ "k1", "k2", "k3", "k4" } : std::vector<const char*>{ "k1", "k2", "p1", "p2" };
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
-    judge.number("distortion", "1", file, picture.name, i < keys.size() ? number(keys[i]) : 0, expected[i], 0);
+    judge.exact("distortion", "1", file, picture.name, i < keys.size() ? number(keys[i]) : 0, expected[i]);
   }
 }
 
@@ -92,7 +92,7 @@ void judgeFrame(ExportJudge& judge, const std::string& file, const Json& documen
     if (there && found == expected && folder == std::string("depth/"))
     {
       const double step = numberOf(judge.source().exported(expected)->encoding, "scale", 0);
-      judge.number("depth scale", "scene units", file, key, document.at("integer_depth_scale"), step, 0);
+      judge.exact("depth scale", "scene units", file, key, document.at("integer_depth_scale"), step);
       judge.holds("depth scale", file, key, document.at("enable_depth_loading") == true, "not enabled", "enabled");
     }
   }
@@ -112,7 +112,7 @@ void judgePoints(ExportJudge& judge, const std::string& name)
     expected += std::string("property ") + property + '\n';
   }
   judge.holds("points", name, "head", bytes.substr(0, head) == expected + "end_header\n", "another", expected);
-  judge.number("points", "", name, "bytes", double(bytes.size()), double(head + row * points.size()), 0);
+  judge.exact("points", "", name, "bytes", double(bytes.size()), double(head + row * points.size()));
   for (std::size_t i = 0; i < points.size() && head + row * (i + 1) <= bytes.size(); ++i)
   {
     float x[3];
@@ -136,7 +136,7 @@ void readTransforms(ExportJudge& judge)
     [&]
     {
       const Json& frames = document.at("frames");
-      judge.number("frames", "", file, "", double(frames.size()), double(judge.source().record().names.size()), 0);
+      judge.exact("frames", "", file, "", double(frames.size()), double(judge.source().record().names.size()));
       for (const Json& frame : frames)
       {
         judgeFrame(judge, file, document, frame);
@@ -188,7 +188,7 @@ void readNerfSynthetic(ExportJudge& judge)
         }
       });
   }
-  judge.number("frames", "", "", "all parts", double(frames), double(judge.source().record().names.size()), 0);
+  judge.exact("frames", "", "", "all parts", double(frames), double(judge.source().record().names.size()));
 }
 
 } // namespace dgtk

@@ -359,7 +359,7 @@ void RosReferee::info(RosBytes& bytes, const ExportedName& name)
   this->holds(where, R == Eigen::Matrix3d::Identity() && matrixOf(P, 4) == K, "another R or P", "no rectification");
   this->Judge.intrinsics(this->File, name.camera, name.frame, fromWholeCentres(K), 1e-9);
   this->baseline(name, -P[3] / P[0]);
-  this->Judge.number("baseline", "m", this->File, where, std::abs(P[7]) + std::abs(P[11]), 0, 0);
+  this->Judge.exact("baseline", "m", this->File, where, std::abs(P[7]) + std::abs(P[11]), 0);
   const CameraRecord* camera = this->Judge.source().camera(name.camera, name.frame);
   const auto numbers =
     camera ? camera->numbers.find("distortion") : std::map<std::string, std::vector<double>>::iterator();
@@ -481,13 +481,13 @@ void RosReferee::finish()
     frames.insert(entry.second->frame);
     messages += 5;
   }
-  this->Judge.number("messages", "messages", this->File, "of pictures", double(this->Seen.size()), double(messages), 0);
+  this->Judge.exact("messages", "messages", this->File, "of pictures", double(this->Seen.size()), double(messages));
   for (const int frame : frames)
   {
     const auto there = std::count_if(this->Poses.begin(), this->Poses.end(),
       [&](const auto& one) { return one.first.first == frame && one.second.rigid && one.second.visible; });
-    this->Judge.number("objects", "objects", this->File, "frame " + std::to_string(frame),
-      double(this->Objects[frame].size()), double(there), 0);
+    this->Judge.exact("objects", "objects", this->File, "frame " + std::to_string(frame),
+      double(this->Objects[frame].size()), double(there));
   }
   this->judgePartners();
 }

@@ -153,7 +153,7 @@ void judgeVideo(ExportJudge& judge, const std::string& folder, const std::vector
   {
     expected += one >= 0;
   }
-  judge.number("tracks", "", file, "", double(count), double(expected), 0);
+  judge.exact("tracks", "", file, "", double(count), double(expected));
   if (points.shape != shape || points.type != "<f4" || occluded.type != "|b1")
   {
     return;
@@ -206,7 +206,7 @@ void judgePickle(ExportJudge& judge, const std::map<std::string, std::vector<con
   const std::string path = judge.source().path(file);
   const std::string bytes = readFile(path);
   const PickledVideos all = readPickledVideos(path, bytes);
-  judge.number("videos", "", file, "", double(all.size()), double(videos.size()), 0);
+  judge.exact("videos", "", file, "", double(all.size()), double(videos.size()));
   for (const auto& [folder, frames] : videos)
   {
     const std::string name = folder.substr(0, folder.size() - 1);
@@ -250,7 +250,7 @@ void judgePickle(ExportJudge& judge, const std::map<std::string, std::vector<con
           }
         }
       }
-      judge.number("color", "values", file, name + " " + std::to_string(t), double(wrong), 0, 0);
+      judge.exact("color", "values", file, name + " " + std::to_string(t), double(wrong), 0);
     }
   }
 }

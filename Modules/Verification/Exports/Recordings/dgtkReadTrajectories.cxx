@@ -31,7 +31,7 @@ void judgeTimes(ExportJudge& judge, const std::string& file, const std::vector<c
 {
   const std::string path = judge.source().path(file);
   const auto lines = linesOf(path);
-  judge.number("times", "lines", file, "", double(lines.size()), double(pictures.size()), 0);
+  judge.exact("times", "lines", file, "", double(lines.size()), double(pictures.size()));
   for (std::size_t i = 0; i < std::min(lines.size(), pictures.size()); ++i)
   {
     const double expected =
@@ -45,7 +45,7 @@ void judgePoses(ExportJudge& judge, const std::string& file, const std::vector<c
 {
   const std::string path = judge.source().path(file);
   const auto lines = linesOf(path);
-  judge.number("poses", "lines", file, "", double(lines.size()), double(pictures.size()), 0);
+  judge.exact("poses", "lines", file, "", double(lines.size()), double(pictures.size()));
   const CameraRecord* first = judge.source().camera(pictures.front()->camera, pictures.front()->frame);
   for (std::size_t i = 0; first && i < std::min(lines.size(), pictures.size()); ++i)
   {
@@ -77,7 +77,7 @@ void judgeProjections(ExportJudge& judge, const std::string& file, const std::ve
     const CameraRecord* b = source.camera(picture.camera, picture.frame);
     const double expected = a && b && isRight ? (b->t - a->t).x() * metresOf(source) : 0;
     judge.number("baseline", "m", file, key, P[3] / P[0], expected, 1e-9);
-    judge.number("baseline", "m", file, key, std::abs(P[7]) + std::abs(P[11]), 0, 0);
+    judge.exact("baseline", "m", file, key, std::abs(P[7]) + std::abs(P[11]), 0);
   }
   static const std::vector<double> scanner{ 0, -1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0 };
   judge.holds("scanner", file, "Tr", numbersOf(all, path, "Tr", 12) == scanner, "another", "x forward, y left, z up");
@@ -145,7 +145,7 @@ void judgeTrajectory(ExportJudge& judge, const std::string& file, const std::vec
 {
   const std::string path = judge.source().path(file);
   const auto lines = linesOf(path);
-  judge.number("poses", "lines", file, "", double(lines.size()), double(pictures.size()), 0);
+  judge.exact("poses", "lines", file, "", double(lines.size()), double(pictures.size()));
   for (std::size_t i = 0; i < std::min(lines.size(), pictures.size()); ++i)
   {
     const std::vector<double> n = numbersIn(path, i + 1, lines[i], 8);
@@ -170,12 +170,12 @@ void judgeSequence(ExportJudge& judge, const std::string& folder)
 {
   const std::vector<TumPicture> rgb = listOf(judge, folder, "rgb.txt");
   const std::vector<TumPicture> depth = listOf(judge, folder, "depth.txt");
-  judge.number("associations", "lines", folder + "depth.txt", "", double(depth.size()), double(rgb.size()), 0);
+  judge.exact("associations", "lines", folder + "depth.txt", "", double(depth.size()), double(rgb.size()));
   judgeTrajectory(judge, folder + "groundtruth.txt", rgb);
   const bool eth = judge.source().convention("dialect") == "eth3d-slam";
   const std::string file = folder + (eth ? "associated.txt" : "associations.txt");
   const auto lines = linesOf(judge.source().path(file));
-  judge.number("associations", "lines", file, "", double(lines.size()), double(rgb.size()), 0);
+  judge.exact("associations", "lines", file, "", double(lines.size()), double(rgb.size()));
   for (std::size_t i = 0; i < std::min({ lines.size(), rgb.size(), depth.size() }); ++i)
   {
     std::vector<std::string> expected{ rgb[i].time, rgb[i].file, depth[i].time, depth[i].file };
@@ -189,7 +189,7 @@ void judgeSequence(ExportJudge& judge, const std::string& folder)
   }
   const std::string calibration = folder + "calibration.txt";
   const auto numbers = linesOf(judge.source().path(calibration));
-  judge.number("intrinsics", "lines", calibration, "", double(numbers.size()), 1, 0);
+  judge.exact("intrinsics", "lines", calibration, "", double(numbers.size()), 1);
   for (const TumPicture& one : rgb)
   {
     const std::vector<double> n =

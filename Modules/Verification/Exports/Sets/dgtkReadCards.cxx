@@ -139,7 +139,7 @@ void judgeReadme(ExportJudge& judge, const std::string& extension)
   {
     const auto parts = std::count_if(head.begin(), head.end(),
       [&](const auto& pair) { return pair.first == "path" && fits(one->file.path, pair.second); });
-    judge.number("parts", "", file, one->file.path, double(parts), 1, 0);
+    judge.exact("parts", "", file, one->file.path, double(parts), 1);
   }
 }
 
@@ -294,9 +294,9 @@ void judgeCroissant(ExportJudge& judge, const std::string& extension)
           "the key and the content of a set's files");
         used.insert(records.at("field").at(0).at("source").at("fileSet").at("@id").get<std::string>());
       }
-      judge.number(
-        "croissant", "sets", file, "recordSet", double(document.at("recordSet").size()), double(mimes.size()), 0);
-      judge.number("croissant", "sets", file, "recordSet", double(used.size()), double(mimes.size()), 0);
+      judge.exact(
+        "croissant", "sets", file, "recordSet", double(document.at("recordSet").size()), double(mimes.size()));
+      judge.exact("croissant", "sets", file, "recordSet", double(used.size()), double(mimes.size()));
     });
 }
 } // namespace
@@ -364,8 +364,7 @@ void SampleDocuments::judge(
   const double fps = source.manifest().fps;
   this->Judge.number("time", "s", file, where, document.value("seconds", 0.0), fps > 0 ? frame / fps : 0, 1e-12);
   const bool metric = document.count("metres_per_unit") > 0;
-  this->Judge.number(
-    "unit", "m", file, where, document.value("metres_per_unit", 0.0), metric ? metresOf(source) : 0, 0);
+  this->Judge.exact("unit", "m", file, where, document.value("metres_per_unit", 0.0), metric ? metresOf(source) : 0);
 }
 
 } // namespace dgtk

@@ -107,9 +107,9 @@ public:
       pictures += std::size_t(std::count_if(this->Frames.begin(), this->Frames.end(),
         [&](int frame) { return this->Judge.source().camera(camera, frame) != nullptr; }));
     }
-    this->Judge.number("cameras", "pictures", this->File, "of nodes", double(this->Pictures), double(pictures), 0);
-    this->Judge.number("objects", "objects", this->File, "of nodes", double(this->Ids.size()),
-      double(this->Judge.source().objects().size()), 0);
+    this->Judge.exact("cameras", "pictures", this->File, "of nodes", double(this->Pictures), double(pictures));
+    this->Judge.exact("objects", "objects", this->File, "of nodes", double(this->Ids.size()),
+      double(this->Judge.source().objects().size()));
     this->judgeTextures();
   }
 

@@ -178,7 +178,7 @@ private:
         }
       }
     }
-    this->Judge.number(layer, "", this->File, worst, largest, 0, 0);
+    this->Judge.exact(layer, "", this->File, worst, largest, 0);
   }
 
   void attributes(const Hdf5Dataset* text, const std::set<double>& seen)
@@ -246,7 +246,7 @@ void readHdf5Frames(ExportJudge& judge)
     }
     reader.finish();
   }
-  judge.number("pictures", "", "", "", double(pictures), double(judge.source().record().names.size()), 0);
+  judge.exact("pictures", "", "", "", double(pictures), double(judge.source().record().names.size()));
 }
 
 } // namespace dgtk

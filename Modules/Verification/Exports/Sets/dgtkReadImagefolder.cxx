@@ -24,7 +24,7 @@ void judgeObjects(
   const auto seen = std::count_if(boxes.begin(), boxes.end(), [](const BoxRecord& one) { return bool(one.visible); });
   const Json none{ { "id", Json::array() }, { "bbox", Json::array() }, { "category", Json::array() } };
   const Json& objects = line.count("objects") > 0 ? line.at("objects") : none;
-  judge.number("objects", "", file, where, double(objects.at("id").size()), double(seen), 0);
+  judge.exact("objects", "", file, where, double(objects.at("id").size()), double(seen));
   for (std::size_t i = 0; i < objects.at("id").size(); ++i)
   {
     const auto id = objects.at("id").at(i).get<std::uint32_t>();
@@ -63,8 +63,7 @@ void readImagefolder(ExportJudge& judge)
         }
       });
   }
-  judge.number(
-    "pictures", "", "README.md", "", double(pictures.size()), double(judge.source().record().names.size()), 0);
+  judge.exact("pictures", "", "README.md", "", double(pictures.size()), double(judge.source().record().names.size()));
   judgeCards(judge, "jsonl");
 }
 

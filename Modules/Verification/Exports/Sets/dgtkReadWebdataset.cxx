@@ -197,8 +197,7 @@ void readWebdataset(ExportJudge& judge)
   {
     archive.read(one->file.path);
   }
-  judge.number(
-    "samples", "", "README.md", "", double(archive.samples()), double(judge.source().record().names.size()), 0);
+  judge.exact("samples", "", "README.md", "", double(archive.samples()), double(judge.source().record().names.size()));
   judge.holds("objects.json", "objects.json", "",
     Sha256::ofFile(judge.source().path("objects.json")) == Sha256::ofFile(judge.source().dataset() + "/objects.json"),
     "other bytes", "the dataset's file");

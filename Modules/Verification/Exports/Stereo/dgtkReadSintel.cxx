@@ -93,8 +93,8 @@ void judgeSintelSequence(ExportJudge& judge, const std::string& file)
     judgeMatrix(judge, file, i + 2, lines[i + 1], "L", folder + "left/" + digits + ".png");
     judgeMatrix(judge, file, i + 3, lines[i + 2], "R", folder + "right/" + digits + ".png");
   }
-  judge.number("frames", "", file, "", double(frames),
-    double(filesIn(judge.source(), "frames_finalpass/" + sequence + "left/", "png").size()), 0);
+  judge.exact("frames", "", file, "", double(frames),
+    double(filesIn(judge.source(), "frames_finalpass/" + sequence + "left/", "png").size()));
 }
 } // namespace
 

@@ -41,8 +41,8 @@ void judgeSpringSequence(ExportJudge& judge, const std::string& folder)
   {
     ++pictures;
   }
-  judge.number("intrinsics", "lines", intrinsics, "lines", double(lines.size()), double(pictures), 0);
-  judge.number("pose", "lines", extrinsics, "lines", double(poses.size()), double(pictures), 0);
+  judge.exact("intrinsics", "lines", intrinsics, "lines", double(lines.size()), double(pictures));
+  judge.exact("pose", "lines", extrinsics, "lines", double(poses.size()), double(pictures));
   for (std::size_t i = 0; i < std::min({ lines.size(), poses.size(), pictures }); ++i)
   {
     const ExportedName& left = *source.named(folder + "frame_left/frame_left_" + digitsOf(i + 1, 4) + ".png");

@@ -75,7 +75,7 @@ void judgeCalibration(ExportJudge& judge, const std::string& file, const Exporte
     one("ndisp") == std::max(1.0, std::floor(most) + 2) && one("vmax") == std::ceil(most) &&
       one("vmin") == std::floor(least) && one("isint") == 0,
     "another range", "that of all disparities");
-  judge.number("offsets", "px", file, "dyavg, dymax", std::abs(one("dyavg")) + std::abs(one("dymax")), 0, 0);
+  judge.exact("offsets", "px", file, "dyavg, dymax", std::abs(one("dyavg")) + std::abs(one("dymax")), 0);
 }
 } // namespace
 
