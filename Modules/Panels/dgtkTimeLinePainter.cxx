@@ -106,7 +106,7 @@ void TimeLinePainter::paintBar(const Row& row, const SequenceBar& bar) const
   {
     this->Painter.fillRect(QRect(right, top + 4, std::max(0, width - right), barHeight - 10), barColor.lighter(150));
     const double turns =
-      std::ceil((this->Shown.frameAt(namesWidth) - bar.start) / bar.length); // before what is in sight
+      std::ceil((this->Shown.frameAt(namesWidth) - 1 - bar.start) / bar.length); // a cell before what is in sight
     for (double turn = std::max(2.0, turns); bar.length * cellWidth > 3; ++turn)
     {
       const int again = this->Shown.middleOf(bar.start + turn * bar.length);

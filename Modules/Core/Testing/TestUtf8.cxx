@@ -55,11 +55,39 @@ TEST(Utf8, ErrorsAreOneLineOfUtf8)
   EXPECT_EQ(quoted(std::string(38, 'a') + "\xc3\xa9"), "'" + std::string(38, 'a') + "\xc3\xa9'");
 }
 
-TEST(Utf8, SurrogatesAreNoCharacters)
+TEST(Utf8, SequencesAreThoseOfUnicodesTable)
 {
-  EXPECT_EQ(printable("\xed\x9f\xbf"), "\xed\x9f\xbf");
+  // Of each row of table 3-7 the first and the last.
+  for (const char* const sequence :
+    { "\x01", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xe0\xbf\xbf", "\xe1\x80\x80", "\xec\xbf\xbf",
+      "\xed\x80\x80", "\xed\x9f\xbf", "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf0\xbf\xbf\xbf",
+      "\xf1\x80\x80\x80", "\xf3\xbf\xbf\xbf", "\xf4\x80\x80\x80", "\xf4\x8f\xbf\xbf" })
+  {
+    const std::string text(sequence);
+    EXPECT_TRUE(isUtf8(text) && isUtf8("a" + text + text)) << printable(text);
+    for (std::size_t end = 1; end < text.size(); ++end)
+    {
+      const std::string cut = text.substr(0, end);
+      EXPECT_FALSE(isUtf8(cut) || isUtf8("a" + cut) || isUtf8(cut + "a")) << printable(cut);
+    }
+    for (std::size_t i = 1; i < text.size(); ++i)
+    {
+      for (const char none : { '\x7f', '\xc0' }) // beside 80 to BF
+      {
+        std::string wrong = text;
+        wrong[i] = none;
+        EXPECT_FALSE(isUtf8(wrong)) << printable(wrong);
+      }
+    }
+  }
+  EXPECT_TRUE(isUtf8(""));
+  EXPECT_TRUE(isUtf8(std::string(1, '\0')));
+  for (const char* const none : { "\x80", "\xbf", "\xc1\xbf", "\xc0\x80", "\xe0\x9f\xbf", "\xed\xa0\x80",
+         "\xed\xbf\xbf", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff" })
+  {
+    EXPECT_FALSE(isUtf8(none)) << printable(none);
+  }
   EXPECT_EQ(printable("\xed\xa0\x80"), "\\xED\\xA0\\x80");
-  EXPECT_EQ(printable("\xee\x80\x80"), "\xee\x80\x80");
 }
 
 TEST(Quoted, LongTextsAreCutBetweenCharactersAndNoFurtherBack)

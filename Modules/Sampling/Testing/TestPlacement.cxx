@@ -450,6 +450,31 @@ TEST(Placement, SaysWhatIsWrongWithARule)
   EXPECT_THAT(with(R"({ "in": [[0, 0, 1], [1, 1, 0]] })"), HasSubstr("beyond its largest"));
 }
 
+TEST(Placement, StandsOnWhatIsPlacedBefore)
+{
+  const std::string table = R"({ "on": "table" })";
+  const std::string tableLater = R"({ "on": "table", "drop": { "height": 0.01 } })";
+  const auto placed = [](const std::string& first, const std::string& second)
+  {
+    PlaceScene made;
+    made.add("table", "table.ac");
+    made.add("a", "crate.ac", first).scale = Eigen::Vector3d(0.1, 0.1, 0.1);
+    made.add("b", "crate.ac", second).scale = Eigen::Vector3d(0.1, 0.1, 0.1);
+    return failure(made);
+  };
+  EXPECT_EQ(placed(table, R"({ "on": "a" })"), "");
+  EXPECT_EQ(placed(R"({ "on": "b", "drop": {} })", table), ""); // what falls comes last
+  for (const char* const where : { "on", "in" })
+  {
+    const auto at = [&](const std::string& name, const std::string& more)
+    { return std::string("{ \"") + where + "\": \"" + name + "\"" + more + " }"; };
+    const auto later = HasSubstr(where + std::string(" names an object that is placed later"));
+    EXPECT_THAT(placed(at("b", ""), table), later);
+    EXPECT_THAT(placed(tableLater, at("a", "")), later);
+    EXPECT_THAT(placed(tableLater, at("a", R"(, "drop": {})")), later);
+  }
+}
+
 TEST(PointOnSurface, IsUniformOverTheArea)
 {
   PlaceScene made;

@@ -154,9 +154,7 @@ void SampleMaker::place()
   {
     rules.push_back({ rule.index, rule.path, std::move(rule.rule) });
   }
-  const std::vector<PlaceOutcome> placed =
-    rules.empty() ? std::vector<PlaceOutcome>()
-                  : placement().placeObjects(this->Objects, rules, this->Draws, this->Models);
+  const std::vector<PlaceOutcome> placed = placement().placeObjects(this->Objects, rules, this->Draws, this->Models);
   // As a scene is written, so that what was measured is what is read.
   const JsonDocument written = parseJson("placed", toJson(this->Objects, this->Objects.folder));
   std::vector<JsonNode>& items = itemsOf(this->Tree, "objects");

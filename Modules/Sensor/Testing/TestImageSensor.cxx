@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSensorRuns.h"
 
+#include "dgtkPortableMath.h"
 #include "dgtkThreadPool.h"
 
 #include <gmock/gmock.h>
@@ -178,6 +179,21 @@ TEST(ImageSensor, PointSpreadsKeepLightAndHaveTheirShape)
   const double variance = 5.3 * 5.3 / 4 + 1.0 / 12;
   EXPECT_THAT(moments(expose(setup, point)),
     testing::Pointwise(testing::DoubleNear(0.01 * variance), { 1.0, variance, variance }));
+  // Of radius 1, in pixels of side 1: the segments beyond a half, and what is left of pi for the corners.
+  setup.parameters.psf.disc = 1;
+  const std::vector<float> disc = expose(setup, point);
+  const double beside = std::sqrt(0.75) / 2 + std::asin(0.5) - 0.5;
+  const std::vector<double> parts{ 1, beside, (pi - 1) / 4 - beside };
+  for (int i = 0; i < 9; ++i)
+  {
+    const int x = i % 3 - 1;
+    const int y = i / 3 - 1;
+    const double part = disc[std::size_t((20 + y) * 41 + 20 + x) * 3];
+    EXPECT_NEAR(part * pi, parts[std::size_t(std::abs(x) + std::abs(y))], 4e-3) << x << ' ' << y;
+    const double points = part / disc[std::size_t(20 * 41 + 20) * 3] * 1024; // 32 x 32 in the one that is all covered
+    EXPECT_NEAR(points, std::round(points), 1e-3) << x << ' ' << y;
+    EXPECT_EQ(part, disc[std::size_t((20 - y) * 41 + 20 - x) * 3]) << x << ' ' << y;
+  }
   setup.parameters.psf = {};
   setup.parameters.psf.kernel = { 0, 0, 4, 0, 2, 2, 0, 0, 0 };
   const std::vector<float> image = expose(setup, point);
@@ -215,7 +231,6 @@ TEST(ImageSensor, TheFullWellHoldsNoMoreElectrons)
   p.exposure = 1;
   p.readNoise = 0;
   const Statistics half = statisticsOf(expose(setupOf(p), grey(1)));
-  const double pi = 3.14159265358979323846;
   EXPECT_NEAR((p.fullWell - half.mean / p.gain * p.fullWell) / std::sqrt(p.fullWell / (2 * pi)), 1, sensorPercent);
   EXPECT_NEAR(half.variance / (p.gain * p.gain / p.fullWell * (0.5 - 0.5 / pi)), 1, 2 * sensorPercent);
 }
