@@ -95,6 +95,9 @@ def text_changes(name, text, most=40):
             changed = word[0] + "x"
         what = "text" if word.start() > body >= 0 else "comment" if line.startswith("#") else word[0]
         yield what, text[:word.start()] + changed + text[word.end():]
+    for number in [word for word in words if word.start() < body and re.fullmatch("-?[0-9.]+", word[0])][:3]:
+        line = text[text.rfind("\n", 0, number.start()) + 1:]
+        yield "comment" if line.startswith("#") else "a letter behind a number", text[:number.end()] + "x" + text[number.end():]
     lines = text.splitlines(True)
     for at in sorted({0, 1, 2, 3, len(lines) // 2, len(lines) - 1}.intersection(range(len(lines)))):
         what = "text" if len("".join(lines[:at])) > body >= 0 else "comment" if lines[at].startswith("#") else None

@@ -133,8 +133,8 @@ void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one
   {
     if (box.id == object)
     {
-      judge.number("visible fraction", "1", file, where, one.at("visible_fraction"),
-        double(box.pixelsVisible) / double(box.pixelsAmodal), 1e-12);
+      judge.exact("visible fraction", "1", file, where, one.at("visible_fraction"),
+        double(box.pixelsVisible) / double(box.pixelsAmodal));
     }
   }
   ++image.annotations;

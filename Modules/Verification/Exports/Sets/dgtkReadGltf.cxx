@@ -411,7 +411,7 @@ private:
     }
   }
 
-  /// Lights that do not move. A diffuse white surface facing one a metre away is as bright as the light is: pi candela.
+  /// Lights that do not move. Their intensity is pi times the scene's, as candela and lux.
   void judgeLight(std::size_t index, const Json& node)
   {
     const std::size_t number = node.at("extensions").at("KHR_lights_punctual").at("light");
