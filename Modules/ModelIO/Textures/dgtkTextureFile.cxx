@@ -42,8 +42,9 @@ std::string inMebibytes(std::uint64_t bytes) { return std::to_string((bytes + me
 /// A picture of a scene.
 struct TextureStore::Entry
 {
-  std::once_flag measured;
-  std::once_flag decoded;
+  std::mutex work; ///< what throws is done again by who asks next
+  bool isMeasured = false;
+  bool isDecoded = false;
   bool isPicture = false;
   std::string problem;
   std::shared_ptr<const Image> image;
@@ -210,7 +211,12 @@ TextureStore::Entry& TextureStore::entryOf(const std::string& path)
 bool TextureStore::reserve(const std::string& path, std::string& problem)
 {
   Entry& entry = this->entryOf(path);
-  std::call_once(entry.measured, [&] { entry.isPicture = takeTexels(fileSource(path), *this, entry.problem); });
+  const std::lock_guard<std::mutex> lock(entry.work);
+  if (!entry.isMeasured)
+  {
+    entry.isPicture = takeTexels(fileSource(path), *this, entry.problem);
+    entry.isMeasured = true;
+  }
   problem = entry.problem;
   return entry.isPicture;
 }
@@ -218,8 +224,12 @@ bool TextureStore::reserve(const std::string& path, std::string& problem)
 std::shared_ptr<const Image> TextureStore::decode(const std::string& path, std::string& problem)
 {
   Entry& entry = this->entryOf(path);
-  std::call_once(
-    entry.decoded, [&] { entry.image = decodeTexels(fileSource(path), AlphaRule::Painted, entry.problem); });
+  const std::lock_guard<std::mutex> lock(entry.work);
+  if (!entry.isDecoded)
+  {
+    entry.image = decodeTexels(fileSource(path), AlphaRule::Painted, entry.problem);
+    entry.isDecoded = true;
+  }
   problem = entry.problem;
   return entry.image;
 }
