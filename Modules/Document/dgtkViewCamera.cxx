@@ -108,7 +108,7 @@ void ViewCamera::orbit(double right, double down)
   }
   const Eigen::Vector3d axis = this->right();
   Eigen::Vector3d arm = this->Eye - this->Focus;
-  const double elevation = std::asin(std::clamp(arm.normalized().dot(this->Up), -1.0, 1.0));
+  const double elevation = std::asin(arm.normalized().dot(this->Up));
   const double tilt = std::clamp(elevation + down * pi / 180, -steepest, steepest) - elevation;
   arm = Eigen::AngleAxisd(-tilt, axis) * arm;
   arm = Eigen::AngleAxisd(-right * pi / 180, this->Up) * arm;

@@ -223,9 +223,8 @@ void MatchPane::paintEvent(QPaintEvent* /*event*/)
   }
 }
 
-void MatchPane::resizeEvent(QResizeEvent* event)
+void MatchPane::resizeEvent(QResizeEvent*)
 {
-  QWidget::resizeEvent(event);
   if (this->Whole)
   {
     this->showAll();
@@ -310,10 +309,6 @@ void MatchPane::keyPressEvent(QKeyEvent* event)
   }
 }
 
-void MatchPane::leaveEvent(QEvent* event)
-{
-  QWidget::leaveEvent(event);
-  emit this->pointed(false, 0, 0);
-}
+void MatchPane::leaveEvent(QEvent*) { emit this->pointed(false, 0, 0); }
 
 } // namespace dgtk

@@ -302,10 +302,6 @@ void LegendBar::showFields()
   this->Strip->setEnds(!wide);
 }
 
-void LegendBar::resizeEvent(QResizeEvent* event)
-{
-  QWidget::resizeEvent(event);
-  this->showFields();
-}
+void LegendBar::resizeEvent(QResizeEvent*) { this->showFields(); }
 
 } // namespace dgtk

@@ -352,9 +352,8 @@ void PictureView::keyPressEvent(QKeyEvent* event)
   this->moveCursor(dx * step, dy * step);
 }
 
-void PictureView::resizeEvent(QResizeEvent* event)
+void PictureView::resizeEvent(QResizeEvent*)
 {
-  QWidget::resizeEvent(event);
   emit this->resized();
   this->askForDetail();
 }

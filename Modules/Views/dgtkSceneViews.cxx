@@ -121,9 +121,8 @@ void SceneViews::showWhole()
   this->frameObjects();
 }
 
-void SceneViews::showEvent(QShowEvent* event)
+void SceneViews::showEvent(QShowEvent*)
 {
-  QWidget::showEvent(event);
   if (this->WholeWanted)
   {
     // After the layout has given the views their sizes.

@@ -11,13 +11,17 @@
 #include <vtkCellArray.h>
 #include <vtkCompositePolyDataMapper2.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkMatrix4x4.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
+#include <vtkTransform.h>
 
 #include <vector>
 
@@ -149,6 +153,61 @@ TEST_F(Snapshots, GiveGlyphsOneIdAndTheCellOfTheirPoint)
   const auto shot = this->take();
   EXPECT_EQ(shot->GetNumberOfProps(), 1);
   EXPECT_EQ(counts(*shot, 0), std::vector<double>({ 25, 25 }));
+}
+
+TEST_F(Snapshots, TurnGlyphsAsVtkDoes)
+{
+  vtkNew<vtkTransform> judge;
+  const double arrays[][3] = { { 1, 0, 0 }, { -1, 0, 0 }, { -2.5, 0, 0 }, { 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, -3 },
+    { 0, 1e-3, 0 }, { 20, 130, -75 }, { -90, 10, 200 } };
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> turns;
+  turns->SetName("turn");
+  turns->SetNumberOfComponents(3);
+  for (const auto& turn : arrays)
+  {
+    points->InsertNextPoint(0.1, 0.2, 0.3);
+    turns->InsertNextTuple(turn);
+  }
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(turns);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetSourceData(square(0, 0));
+  mapper->SetOrientationArray("turn");
+  this->add(mapper.Get());
+  for (const bool rotation : { false, true })
+  {
+    mapper->SetOrientationMode(rotation ? vtkGlyph3DMapper::ROTATION : vtkGlyph3DMapper::DIRECTION);
+    const auto shot = this->take();
+    const std::vector<dgtk::Instance>& instances = shot->GetStage()->at(0)->instances;
+    ASSERT_EQ(instances.size(), 1 + std::size(arrays)); // the object, and its copies
+    for (std::size_t i = 0; i < std::size(arrays); ++i)
+    {
+      const Eigen::Vector3d v(arrays[i]);
+      judge->Identity();
+      if (rotation)
+      {
+        judge->RotateZ(v.z());
+        judge->RotateX(v.x());
+        judge->RotateY(v.y());
+      }
+      else if (v.y() == 0 && v.z() == 0)
+      {
+        judge->RotateY(v.x() < 0 ? 180 : 0);
+      }
+      else
+      {
+        judge->RotateWXYZ(180, v.x() + v.norm(), v.y(), v.z());
+      }
+      const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> expected(judge->GetMatrix()->GetData());
+      EXPECT_LT(
+        (instances[i + 1].object_from_model.linear - expected.topLeftCorner<3, 3>()).cwiseAbs().maxCoeff(), 1e-12)
+        << rotation << ' ' << v.transpose();
+      EXPECT_LT((instances[i + 1].object_from_model.translation - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), 1e-6);
+    }
+  }
 }
 
 TEST_F(Snapshots, ShareWhatDidNotChange)

@@ -105,6 +105,12 @@ TEST_F(TimeLinePicture, ALoopsTurnsAreMarkedToTheEnd)
     EXPECT_EQ(this->columns(y, bar.darker(120)), every(begin + 2 * 66, 66)) << scrolled;
     const Columns later = this->columns(y, bar.lighter(150));
     const double end = std::max(begin + 66, double(namesWidth));
+    for (int below = 0; below < barHeight && scrolled == 12 * 60; ++below)
+    {
+      const bool there = below >= 3 && below < 9; // from the row's last line, which the bar begins on
+      EXPECT_EQ(this->Image.pixel(width - 20, headerHeight + rowHeight + below) == bar.lighter(150).rgb(), there)
+        << below;
+    }
     EXPECT_EQ(later.size() + this->columns(y, bar.darker(120)).size(), std::size_t(width - end)) << scrolled;
   }
   this->Shown.scrolled.setX(0);
@@ -115,6 +121,9 @@ TEST_F(TimeLinePicture, ALoopsTurnsAreMarkedToTheEnd)
     this->paintRow(row, &its);
     EXPECT_EQ(this->columns(y, bar.darker(120)), marks ? every(begin + 12, 6) : Columns()) << length;
   }
+  its.length = 0.01;
+  this->paintRow(row, &its);
+  EXPECT_EQ(this->columns(y, bar.darker(150)), (Columns{ begin, begin + 1 })) << "two pixels at least";
   for (const double length : { 5.5, std::numeric_limits<double>::infinity() })
   {
     its.length = length;
@@ -204,7 +213,7 @@ TEST_F(TimeLinePicture, KeysHaveMarksAndLinesBetweenThem)
 TEST_F(TimeLinePicture, TheHeaderCountsFramesAndMarksTheScenesKeys)
 {
   this->Shown.keys = { 3, 17 };
-  for (const int scrolled : { 0, 5, 12 * 3 })
+  for (const int scrolled : { 0, 5, 12 * 3, 12 * 12 + 5 })
   {
     this->Shown.scrolled.setX(scrolled);
     this->paint([](const TimeLinePainter& parts) { parts.paintHeader(); });

@@ -2,6 +2,7 @@
 #ifndef dgtkPlaceSamples_h
 #define dgtkPlaceSamples_h
 
+#include "dgtkError.h"
 #include "dgtkModel.h"
 #include "dgtkPlacement.h"
 #include "dgtkTestSupport.h"
@@ -56,6 +57,12 @@ inline double measured(const PlaceOutcome& placed, const std::string& name)
     }
   }
   return -1;
+}
+
+/// Why it cannot be placed; "" when it can.
+inline std::string failure(PlaceScene made)
+{
+  return test::thrownBy<Error>([&] { made.place(); });
 }
 
 /// A quaternion uniform over rotations, of three uniforms (Shoemake 1992).
