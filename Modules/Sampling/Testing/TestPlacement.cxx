@@ -364,11 +364,12 @@ TEST(Placement, AProxyStandsInForTheFall)
     const double half = 10 * 3.14159265358979323846 / 180;
     ObjectDescription& slope = made.add("slope", "brick.ac");
     slope.scale = Eigen::Vector3d(10, 1, 10);
-    slope.orientation = Quaternion{ std::cos(half), 0, 0, std::sin(half) };
+    const Quaternion turn{ std::cos(half), 0, 0, std::sin(half) };
+    slope.orientation = turn;
     ObjectDescription& it = made.add("ball", "ball.ac",
       R"({ "on": "slope", "region": [[-0.01, -0.01], [0.01, 0.01]])" + drop + R"(, "proxy": ")" + proxy + "\" }");
     it.scale = Eigen::Vector3d(0.1, 0.1, 0.1);
-    it.orientation = slope.orientation;
+    it.orientation = turn;
     return made;
   };
   const std::string drop = R"(, "drop": { "height": 0 })";

@@ -149,8 +149,8 @@ public:
       [&]
       {
         const Json camera = this->document("camera.json");
-        Eigen::Matrix3d K;
-        K << camera.at("fx"), 0, camera.at("cx"), 0, camera.at("fy"), camera.at("cy"), 0, 0, 1;
+        const auto number = [&](const char* key) { return camera.at(key).get<double>(); };
+        const Eigen::Matrix3d K = matrixOf({ number("fx"), 0, number("cx"), 0, number("fy"), number("cy"), 0, 0, 1 });
         const ExportedName& first = this->Judge.source().record().names.front();
         this->Judge.intrinsics("camera.json", first.camera, first.frame, fromWholeCentres(K), 1e-9);
         this->Judge.size("camera.json", first.camera, first.frame, camera.at("width"), camera.at("height"));

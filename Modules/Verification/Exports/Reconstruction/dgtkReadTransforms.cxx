@@ -33,8 +33,7 @@ void judgeLens(
     return;
   }
   const auto number = [&](const char* key) { return numberOf(document, frame, key); };
-  Eigen::Matrix3d K;
-  K << number("fl_x"), 0, number("cx"), 0, number("fl_y"), number("cy"), 0, 0, 1;
+  const Eigen::Matrix3d K = matrixOf({ number("fl_x"), 0, number("cx"), 0, number("fl_y"), number("cy"), 0, 0, 1 });
   judge.intrinsics(file, picture.camera, picture.frame, K, 1e-9);
   judge.size(file, picture.camera, picture.frame, int(number("w")), int(number("h")));
   const double angle = 2 * std::atan(0.5 * number("w") / number("fl_x"));

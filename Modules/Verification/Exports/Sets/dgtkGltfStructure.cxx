@@ -152,6 +152,16 @@ Eigen::MatrixXd GltfNumbers::read(std::size_t index) const
   return values;
 }
 
+Eigen::MatrixXd GltfNumbers::read(std::size_t accessor, std::size_t rows, Eigen::Index columns) const
+{
+  Eigen::MatrixXd values = this->read(accessor);
+  if (values.rows() != Eigen::Index(rows) || values.cols() != columns)
+  {
+    throw std::out_of_range("another shape");
+  }
+  return values;
+}
+
 void judgeGltfStructure(ExportJudge& judge, const std::string& file, const Json& document, const GltfNumbers& numbers)
 {
   const auto holds = [&](const std::string& where, bool right)

@@ -24,6 +24,8 @@ public:
   GltfNumbers(const nlohmann::json& asset, const std::string& folder, const std::string& file);
   /// A row for each element. Throws InputError.
   Eigen::MatrixXd read(std::size_t accessor) const;
+  /// The same of so many rows and columns; std::out_of_range for others.
+  Eigen::MatrixXd read(std::size_t accessor, std::size_t rows, Eigen::Index columns) const;
   bool hasRightSizes() const { return this->Right; } ///< of its files
 
 private:
