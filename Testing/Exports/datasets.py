@@ -136,7 +136,7 @@ def twins(folder):
         _camera("a wider view", [-0.3, 0.2, 5.2], [0, 0, 0]), _camera("fish flach", eyes, looks)]})
 
 
-def street(folder, frames=2):
+def street(folder, frames=2, **size):
     """What stands upright before an upright rectified pair: turned about the vertical alone, cut off by the border, in two sizes."""
     last = frames - 1
     objects = [{"name": "back wall", "model": "wall.obj", "position": [0, 0, -3], "class": "wall"},
@@ -147,8 +147,8 @@ def street(folder, frames=2):
                {"name": "hidden", "model": "block.obj", "position": [0.7, -0.1, -1.2], "class": "Car"},
                {"name": "nameless", "model": "ring.obj", "position": [-0.3, 0.6, -1]}]
     return _write(folder, "street", {"objects": objects, "cameras": [
-        _camera("cam L", {"keys": [[0, [-0.1, 0.2, 4.5]], [last, [-0.1, 0.2, 4.3]]]}, {"keys": [[0, [-0.1, 0.2, 0]], [last, [-0.1, 0.2, -0.2]]]}),
-        _camera("cam R", {"keys": [[0, [0.1, 0.2, 4.5]], [last, [0.1, 0.2, 4.3]]]}, {"keys": [[0, [0.1, 0.2, 0]], [last, [0.1, 0.2, -0.2]]]})]})
+        _camera("cam L", {"keys": [[0, [-0.1, 0.2, 4.5]], [last, [-0.1, 0.2, 4.3]]]}, {"keys": [[0, [-0.1, 0.2, 0]], [last, [-0.1, 0.2, -0.2]]]}, **size),
+        _camera("cam R", {"keys": [[0, [0.1, 0.2, 4.5]], [last, [0.1, 0.2, 4.3]]]}, {"keys": [[0, [0.1, 0.2, 0]], [last, [0.1, 0.2, -0.2]]]}, **size)]})
 
 
 def _without_view(camera):

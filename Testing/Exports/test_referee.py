@@ -18,8 +18,6 @@ from datasets import load_json, main, sealed
 from harness import DGTK
 from planted_exports import COLMAP, PANOPTIC, PLANTS, packed, word
 
-SMALL = {"width": 48, "height": 36}
-
 # What each format needs of every picture, in the order in which it is missed.
 NEEDS = {form: layers.split() for form, layers in {
     "bop": "color depth objects boxes amodal", "coco": "color objects boxes amodal", "coco-panoptic": "color objects", "colmap": "color objects tracks",
@@ -34,12 +32,7 @@ NEEDS = {form: layers.split() for form, layers in {
 class Referee(datasets.ExportCase):
     def setUp(self):
         super().setUp()
-        scene = datasets.street(self.path("scene"))
-        document = load_json(scene)
-        for camera in document["cameras"]:
-            camera.update(SMALL)
-        with open(scene, "w", encoding="utf-8") as file:
-            json.dump(document, file)
+        scene = datasets.street(self.path("scene"), width=48, height=36)
         self.dataset = self.render(scene, "boxes,amodal,objects,classes", "--for", ",".join(PLANTS))
 
     def plant(self, path, edit, *share):

@@ -190,6 +190,12 @@ const ExportedName* ExportedFrom::nameOf(const std::string& camera, int frame) c
 
 const ExportedName* ExportedFrom::named(const std::string& name) const { return foundBy(this->ByName, &nameIn, name); }
 
+std::size_t ExportedFrom::picturesBelow(const std::string& folder) const
+{
+  return static_cast<std::size_t>(std::count_if(this->Record.names.begin(), this->Record.names.end(),
+    [&](const ExportedName& one) { return one.name.rfind(folder, 0) == 0; }));
+}
+
 const CameraRecord* ExportedFrom::camera(const std::string& name, int frame) const
 {
   const Place wanted(name, frame);

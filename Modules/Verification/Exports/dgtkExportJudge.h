@@ -52,6 +52,8 @@ public:
   /// The export's name of a picture, or null; and the picture of a name.
   const ExportedName* nameOf(const std::string& camera, int frame) const;
   const ExportedName* named(const std::string& name) const;
+  /// How many pictures have names that begin so.
+  std::size_t picturesBelow(const std::string& folder) const;
 
   const CameraRecord* camera(const std::string& name, int frame) const;
   const std::vector<ObjectRecord>& objects() const { return this->Objects.begin()->second; } ///< of the first dataset

@@ -40,15 +40,21 @@ inline nlohmann::json readJsonFile(const std::string& path)
   return useJson(path, [&] { return nlohmann::json::parse(readFile(path)); });
 }
 
-/// A list of so many numbers, which is used within useJson().
-inline std::vector<double> numberList(const nlohmann::json& list, std::size_t count)
+/// The size of a list, which has to be this; used within useJson().
+inline std::size_t requireSize(const nlohmann::json& list, std::size_t size)
 {
-  std::vector<double> numbers = list;
-  if (numbers.size() != count)
+  if (!list.is_array() || list.size() != size)
   {
     throw std::out_of_range("a list of another length");
   }
-  return numbers;
+  return size;
+}
+
+/// A list of so many numbers; used within useJson().
+inline std::vector<double> numberList(const nlohmann::json& list, std::size_t count)
+{
+  requireSize(list, count);
+  return list;
 }
 
 } // namespace dgtk

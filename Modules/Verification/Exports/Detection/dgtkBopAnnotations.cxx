@@ -2,10 +2,10 @@
 #include "dgtkBopAnnotations.h"
 
 #include "dgtkJsonFile.h"
+#include "dgtkReadCoco.h"
 #include "dgtkReadTexts.h"
 
 #include <algorithm>
-#include <array>
 
 namespace dgtk
 {
@@ -13,41 +13,6 @@ namespace dgtk
 namespace
 {
 using Json = nlohmann::json;
-
-/// The pixels of counts of outside and inside in turns, column by column; rows top to bottom. Empty unless there are
-/// as many as asked for.
-std::vector<char> columnsOf(const std::vector<std::uint64_t>& counts, std::size_t height, std::size_t pixels)
-{
-  std::vector<char> columns;
-  std::size_t next = 0;
-  for (; next < counts.size() && counts[next] <= pixels - columns.size(); ++next)
-  {
-    columns.insert(columns.end(), counts[next], char(next % 2));
-  }
-  const bool whole = next == counts.size() && columns.size() == pixels && height > 0 && pixels % height == 0;
-  std::vector<char> mask(whole ? pixels : 0);
-  for (std::size_t i = 0; i < mask.size(); ++i)
-  {
-    mask[i % height * (pixels / height) + i / height] = columns[i];
-  }
-  return mask;
-}
-
-/// [x, y, width, height] of pixels that are not 0.
-std::vector<double> boxOf(const std::vector<char>& mask, std::size_t width)
-{
-  std::array<double, 4> box{ infinite, infinite, -infinite, -infinite };
-  for (std::size_t i = 0; i < mask.size(); ++i)
-  {
-    if (mask[i] != 0)
-    {
-      const auto x = double(i % std::max<std::size_t>(1, width));
-      const auto y = double(i / std::max<std::size_t>(1, width));
-      box = { std::min(box[0], x), std::min(box[1], y), std::max(box[2], x + 1), std::max(box[3], y + 1) };
-    }
-  }
-  return { box[0], box[1], box[2] - box[0], box[3] - box[1] };
-}
 } // namespace
 
 BopAnnotations::BopAnnotations(ExportJudge& judge, const std::string& file)
@@ -71,7 +36,7 @@ BopAnnotations::BopAnnotations(ExportJudge& judge, const std::string& file)
 void BopAnnotations::judge(const Instance& instance, const std::vector<char>& visible, const std::vector<char>& whole)
 {
   const auto found = this->Annotations.find({ instance.image, std::int64_t(instance.number) + 1 });
-  const std::string where = instance.picture + ", instance " + std::to_string(instance.number);
+  const std::string where = instance.picture.name + ", instance " + std::to_string(instance.number);
   this->Judge.holds("coco", this->File, where, found != this->Annotations.end(), "no annotation", "one");
   if (found != this->Annotations.end())
   {
@@ -88,16 +53,20 @@ void BopAnnotations::judgeOne(const std::string& where, const Json& one, const I
     this->Judge.holds(
       "coco", this->File, where + ' ' + key, one.at(key) == expected, one.at(key).dump(), expected.dump());
   };
-  const std::size_t width = one.at("width");
-  const std::size_t height = one.at("height");
+  const CameraRecord* camera = this->Judge.source().camera(instance.picture.camera, instance.picture.frame);
+  const int width = camera ? camera->width : 0;
+  const int height = camera ? camera->height : 0;
+  const Eigen::Vector4d box = cornersOfMask(whole, width);
   holds("category_id", instance.model);
   holds("area", std::count(visible.begin(), visible.end(), char(1)));
-  holds("bbox", boxOf(whole, width));
+  holds("width", width);
+  holds("height", height);
+  holds("bbox", Json{ box[0], box[1], box[2] - box[0], box[3] - box[1] });
   holds("iscrowd", 0);
   holds("ignore", !instance.wanted);
   const Json& mask = one.at("segmentation");
   const bool same =
-    mask.at("size") == Json{ height, width } && columnsOf(mask.at("counts"), height, visible.size()) == visible;
+    mask.at("size") == Json{ height, width } && maskOfCounts(mask.at("counts"), width, height) == visible;
   this->Judge.holds("coco", this->File, where, same, "another mask", "mask_visib");
 }
 
@@ -124,10 +93,8 @@ void BopAnnotations::judgeRest(const std::string& folder, std::set<int> models, 
       this->Judge.exact("coco", "categories", this->File, "left out", double(models.size()), 0);
       this->Judge.exact(
         "coco", "annotations", this->File, "", double(this->Document.at("annotations").size()), double(instances));
-      const auto& names = source.record().names;
-      const auto pictures = std::count_if(
-        names.begin(), names.end(), [&](const ExportedName& one) { return one.name.rfind(folder, 0) == 0; });
-      this->Judge.exact("coco", "images", this->File, "", double(this->Document.at("images").size()), double(pictures));
+      this->Judge.exact("coco", "images", this->File, "", double(this->Document.at("images").size()),
+        double(source.picturesBelow(folder)));
     });
 }
 

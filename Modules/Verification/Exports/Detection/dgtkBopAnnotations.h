@@ -24,7 +24,7 @@ class BopAnnotations
 public:
   struct Instance
   {
-    std::string picture;
+    const ExportedName& picture;
     std::int64_t image = 0;
     std::size_t number = 0; ///< from 0
     int model = 0;

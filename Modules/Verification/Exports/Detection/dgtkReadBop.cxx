@@ -114,9 +114,7 @@ public:
     BopAnnotations annotations(this->Judge, folder + "scene_gt_coco.json");
     this->Annotations = &annotations;
     this->Annotated = 0;
-    const auto& names = this->Judge.source().record().names;
-    const auto pictures = std::count_if(
-      names.begin(), names.end(), [&](const ExportedName& one) { return one.name.rfind(folder + "rgb/", 0) == 0; });
+    const std::size_t pictures = this->Judge.source().picturesBelow(folder + "rgb/");
     for (const auto& [name, document] : { std::pair<const char*, const Json*>{ "scene_camera.json", &cameras },
            { "scene_gt.json", &poses }, { "scene_gt_info.json", &infos } })
     {
@@ -151,7 +149,7 @@ public:
         const Json camera = this->document("camera.json");
         const auto number = [&](const char* key) { return camera.at(key).get<double>(); };
         const Eigen::Matrix3d K = matrixOf({ number("fx"), 0, number("cx"), 0, number("fy"), number("cy"), 0, 0, 1 });
-        const ExportedName& first = this->Judge.source().record().names.front();
+        const ExportedName& first = this->Judge.source().record().names.at(0);
         this->Judge.intrinsics("camera.json", first.camera, first.frame, fromWholeCentres(K), 1e-9);
         this->Judge.size("camera.json", first.camera, first.frame, camera.at("width"), camera.at("height"));
         this->judgeScale("camera.json", camera, first);
@@ -410,7 +408,7 @@ private:
     const bool wanted = double(box.pixelsVisible) >= least * double(box.pixelsWhole);
     if (box.pixelsVisible > 0)
     {
-      this->Annotations->judge({ picture.name, std::stoll(image), instance, model, wanted }, own, inside(whole));
+      this->Annotations->judge({ picture, std::stoll(image), instance, model, wanted }, own, inside(whole));
     }
   }
 

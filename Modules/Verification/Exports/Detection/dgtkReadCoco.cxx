@@ -40,25 +40,6 @@ std::vector<std::uint64_t> countsOf(const std::string& text)
   return counts;
 }
 
-/// Rows top to bottom of a mask given column by column; none where the counts are not of so many pixels.
-std::vector<char> filled(const std::vector<std::uint64_t>& counts, int width, int height)
-{
-  std::vector<char> mask(std::size_t(width) * height);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-  {
-    if (counts[i] > mask.size() - at)
-    {
-      return {};
-    }
-    for (const std::size_t end = at + counts[i]; at < end; ++at)
-    {
-      mask[at % std::size_t(height) * std::size_t(width) + at / std::size_t(height)] = char(i % 2);
-    }
-  }
-  return at == mask.size() ? mask : std::vector<char>();
-}
-
 std::vector<char> maskOf(const Json& segmentation, int width, int height)
 {
   if (segmentation.is_array())
@@ -71,7 +52,7 @@ std::vector<char> maskOf(const Json& segmentation, int width, int height)
     return mask;
   }
   const bool sized = segmentation.at("size") == Json{ height, width };
-  return sized ? filled(countsOf(segmentation.at("counts")), width, height) : std::vector<char>();
+  return sized ? maskOfCounts(countsOf(segmentation.at("counts")), width, height) : std::vector<char>();
 }
 
 Eigen::Vector4d cornersOf(const Json& box)
@@ -95,21 +76,6 @@ std::uint64_t visibleObjects(const ExportedFrom& source, const CocoImage& image)
     std::count_if(boxes.begin(), boxes.end(), [](const BoxRecord& box) { return box.visible.has_value(); }));
 }
 
-/// The box of pixels inside, of which there are some.
-Eigen::Vector4d cornersOf(const std::vector<char>& mask, int width)
-{
-  Eigen::Vector4d corners(infinite, infinite, -infinite, -infinite);
-  for (std::size_t i = 0; i < mask.size(); ++i)
-  {
-    if (mask[i] != 0)
-    {
-      const Eigen::Vector2d pixel(double(i % std::size_t(width)), double(i / std::size_t(width)));
-      corners << corners.head<2>().cwiseMin(pixel), corners.tail<2>().cwiseMax(pixel + Eigen::Vector2d(1, 1));
-    }
-  }
-  return corners;
-}
-
 void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one, CocoImage& image)
 {
   const auto object = one.at("object_id").get<std::uint32_t>();
@@ -122,7 +88,7 @@ void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one
   judge.mask(file, camera, frame, object, mask);
   judge.exact("area", "px", file, where, one.at("area"), double(std::count(mask.begin(), mask.end(), char(1))));
   judge.amodalMask(file, camera, frame, object, whole);
-  judge.holds("amodal box", file, where, cornersOf(one.at("amodal_bbox")) == cornersOf(whole, image.width),
+  judge.holds("amodal box", file, where, cornersOf(one.at("amodal_bbox")) == cornersOfMask(whole, image.width),
     one.at("amodal_bbox").dump(), "that of the mask");
   judge.holds("crowds", file, where, one.at("iscrowd") == 0, one.at("iscrowd").dump(), "0");
   const ObjectRecord* record = judge.source().object(camera, object);
@@ -237,13 +203,42 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
         judge.exact("annotations", "objects", file, image.picture->name, double(image.annotations),
           double(pointed ? pointedObjects(judge.source(), image, categories) : visibleObjects(judge.source(), image)));
       }
-      const std::vector<ExportedName>& names = judge.source().record().names;
-      const auto pictures = std::count_if(
-        names.begin(), names.end(), [&](const ExportedName& one) { return one.name.rfind(split + '/', 0) == 0; });
-      judge.exact("images", "", file, split, double(images.size()), double(pictures));
+      judge.exact("images", "", file, split, double(images.size()), double(judge.source().picturesBelow(split + '/')));
     });
 }
 } // namespace
+
+std::vector<char> maskOfCounts(const std::vector<std::uint64_t>& counts, int width, int height)
+{
+  std::vector<char> mask(std::size_t(width) * height);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    if (counts[i] > mask.size() - at)
+    {
+      return {};
+    }
+    for (const std::size_t end = at + counts[i]; at < end; ++at)
+    {
+      mask[at % std::size_t(height) * std::size_t(width) + at / std::size_t(height)] = char(i % 2);
+    }
+  }
+  return at == mask.size() ? mask : std::vector<char>();
+}
+
+Eigen::Vector4d cornersOfMask(const std::vector<char>& mask, int width)
+{
+  Eigen::Vector4d corners(infinite, infinite, -infinite, -infinite);
+  for (std::size_t i = 0; i < mask.size(); ++i)
+  {
+    if (mask[i] != 0)
+    {
+      const Eigen::Vector2d pixel(double(i % std::size_t(width)), double(i / std::size_t(width)));
+      corners << corners.head<2>().cwiseMin(pixel), corners.tail<2>().cwiseMax(pixel + Eigen::Vector2d(1, 1));
+    }
+  }
+  return corners;
+}
 
 void judgeCocoCategories(
   ExportJudge& judge, const std::string& file, const Json& categories, const std::vector<ClassRecord>& classes)

@@ -441,11 +441,7 @@ void judgeLists(ExportJudge& judge, const std::string& top)
   const std::string match = top + "stereo/patch-match.cfg";
   const auto names = linesOf(judge.source().path(fusion));
   const auto pairs = linesOf(judge.source().path(match));
-  std::size_t pictures = 0;
-  for (const ExportedName& name : judge.source().record().names)
-  {
-    pictures += name.name.rfind(top + "images/", 0) == 0;
-  }
+  const std::size_t pictures = judge.source().picturesBelow(top + "images/");
   judge.exact("lists", "", fusion, "lines", double(names.size()), double(pictures));
   judge.exact("lists", "", match, "lines", double(pairs.size()), double(2 * pictures));
   for (std::size_t i = 0; i < names.size() && 2 * i < pairs.size(); ++i)

@@ -58,9 +58,9 @@ void judgeLens(
 void judgePose(ExportJudge& judge, const std::string& file, const Json& rows, const ExportedName& picture)
 {
   Eigen::Matrix4d M;
-  for (std::size_t i = 0; i < std::max<std::size_t>(4, rows.size()); ++i)
+  for (std::size_t i = 0; i < requireSize(rows, 4); ++i)
   {
-    const std::vector<double> row = numberList(rows.at(i), i < 4 ? 4 : 0);
+    const std::vector<double> row = numberList(rows[i], 4);
     M.row(Eigen::Index(i)) = Eigen::Map<const Eigen::RowVector4d>(row.data());
   }
   Eigen::Matrix3d turn = M.topLeftCorner<3, 3>();

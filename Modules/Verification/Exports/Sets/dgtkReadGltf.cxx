@@ -67,6 +67,10 @@ public:
 
   void judge()
   {
+    if (this->Frames.empty())
+    {
+      throw std::out_of_range("no picture");
+    }
     judgeGltfStructure(this->Judge, this->File, this->Document, this->Numbers);
     this->readAnimations();
     const Json& nodes = this->Document.at("nodes");
@@ -213,9 +217,9 @@ private:
       const Eigen::Matrix3d R = flip.asDiagonal() * pose.linear().transpose();
       this->Judge.pose(this->File, name->camera, frame, R, -(R * pose.translation()) / this->Metres, 2e-6);
       Eigen::Matrix3d K;
-      for (std::size_t i = 0; i < std::max<std::size_t>(3, extras.at("K").size()); ++i)
+      for (std::size_t i = 0; i < requireSize(extras.at("K"), 3); ++i)
       {
-        K.row(Eigen::Index(i)) = gltfList(extras.at("K").at(i), i < 3 ? 3 : 0).transpose();
+        K.row(Eigen::Index(i)) = gltfList(extras.at("K")[i], 3).transpose();
       }
       this->Judge.size(this->File, name->camera, frame, extras.at("width"), extras.at("height"));
       this->Judge.intrinsics(this->File, name->camera, frame, K, 1e-9);
