@@ -228,9 +228,9 @@ def clouds():
     yield Plant("points", "tracks", 1e-8, first_place, bad=2, small=False)
 
     def surface(data, factor):
-        """Farther along the ray of its first pixel, in both files."""
+        """Farther along the ray of its only pixel, in both files."""
         document = points(data)
-        index = seen_twice(data, 30)
+        index = [i for i, point in enumerate(document["points"]) if len(point["track"]) == 1][30]
         point = document["points"][index]
         camera = record_of(data, document["cameras"][point["track"][0][0]], 0)
         centre = -camera["R"].T @ camera["t"]
@@ -238,7 +238,6 @@ def clouds():
 
         def push(changed):
             changed["points"][index]["x"] = moved
-            changed["points"][index]["track"] = point["track"][:1]
 
         data.bytes(ply, lambda content: struct.pack_into("<3d", content, vertex(data, index), *moved))
         return data.document(name, push)
@@ -254,7 +253,7 @@ def clouds():
                 record = record_of(data, camera, 0)
                 place = record["K"] @ (record["R"] @ point["x"] + record["t"])
                 u, v = place[:2] / place[2]
-                if i not in seeing and camera != "parallel" and place[2] > 0.1 and 0 < u < 96 and 0 < v < 72 and index > 150:
+                if i > max(seeing) and camera != "parallel" and place[2] > 0.1 and 0 < u < 96 and 0 < v < 72 and index > 150:
                     return data.document(
                         name, lambda changed, p=index, at=[i, u, v]: changed["points"][p]["track"].append(at))
 

@@ -221,7 +221,10 @@ std::vector<ClassRecord> readClasses(const std::string& path)
       one.id = idOf(item["class_id"]);
       one.name = item["class"].text();
     }
-    table.emplace(one.id, one);
+    if (!table.emplace(one.id, one).second && hasTable)
+    {
+      item.fail("has the number of another class");
+    }
   }
   std::vector<ClassRecord> classes;
   classes.reserve(table.size());

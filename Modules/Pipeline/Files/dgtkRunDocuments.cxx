@@ -155,12 +155,18 @@ Manifest RunDocuments::manifest(const std::vector<std::string>& warnings) const
   manifest.fps = scene.fps;
   manifest.info = scene.dataset;
   manifest.inputs = this->Inputs;
+  std::set<std::pair<std::string, std::string>> listed; // classes are the same beside each format of their layer
   for (const PlannedLayer& planned : this->Plan.layers)
   {
     for (const std::string& format : planned.formats)
     {
-      const std::vector<LayerRecord> records = planned.layer->records(this->Plan, format);
-      manifest.layers.insert(manifest.layers.end(), records.begin(), records.end());
+      for (const LayerRecord& record : planned.layer->records(this->Plan, format))
+      {
+        if (listed.emplace(record.spec.name, record.format).second)
+        {
+          manifest.layers.push_back(record);
+        }
+      }
     }
   }
   manifest.empty = this->Plan.empty;

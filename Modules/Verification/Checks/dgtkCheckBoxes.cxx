@@ -36,9 +36,11 @@ Extent extentOf(const Picture& picture, const Inside& inside)
   return extent;
 }
 
-Eigen::MatrixXd jsonMatrix(const Json& json)
+Eigen::MatrixXd jsonMatrix(const Json& json, std::size_t rows, std::size_t columns)
 {
-  Eigen::MatrixXd matrix(json.size(), json.at(0).size());
+  requireSize(json, rows);
+  std::for_each(json.begin(), json.end(), [&](const Json& row) { requireSize(row, columns); });
+  Eigen::MatrixXd matrix(rows, columns);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
   {
     for (Eigen::Index j = 0; j < matrix.cols(); ++j)
@@ -49,10 +51,7 @@ Eigen::MatrixXd jsonMatrix(const Json& json)
   return matrix;
 }
 
-Eigen::Vector3d jsonVector(const Json& json)
-{
-  return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() };
-}
+Eigen::Vector3d jsonVector(const Json& json) { return Eigen::Vector3d(numberList(json, 3).data()); }
 
 class BoxCheck
 {
@@ -67,6 +66,17 @@ public:
     {
       this->Amodal = readMasks(picture.dataset().absolute(masks), picture.width(), picture.height());
     }
+  }
+
+  /// Whose picture it is of.
+  void place(const Json& camera, const Json& frame)
+  {
+    this->Names.equal(camera == this->Owner.camera() && frame == this->Owner.frame(),
+      [&]
+      {
+        return Offender{ this->File, -1, -1, "camera " + camera.dump() + " frame " + frame.dump(),
+          "camera " + quoted(this->Owner.camera()) + " frame " + std::to_string(this->Owner.frame()) };
+      });
   }
 
   void object(const Json& object)
@@ -156,7 +166,7 @@ private:
       return;
     }
     const double size = std::max(this->Owner.width(), this->Owner.height());
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < requireSize(found, 4); ++i)
     {
       const double far = std::abs(expected.box[i]) / size;
       this->number(meter, key, found.at(i).get<double>(), expected.box[i], std::max(1.0, far * far));
@@ -275,10 +285,6 @@ private:
   void matrix(const char* key, const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected)
   {
     const double scale = expected.cwiseAbs().maxCoeff();
-    if (found.rows() != expected.rows() || found.cols() != expected.cols())
-    {
-      throw InputError(this->Owner.dataset().absolute(this->File), 0, std::string(key) + " has another size");
-    }
     for (Eigen::Index i = 0; i < found.size(); ++i)
     {
       this->number(this->Pose, key, found.data()[i], expected.data()[i], scale);
@@ -290,10 +296,10 @@ private:
     const Affine3& camera_from_object = this->Owner.sight().cameraFromObject(this->Id);
     Eigen::MatrixXd expected(3, 4);
     expected << camera_from_object.linear, camera_from_object.translation;
-    this->matrix("matrix", jsonMatrix(object.at("matrix")), expected);
+    this->matrix("matrix", jsonMatrix(object.at("matrix"), 3, 4), expected);
     if (!object.at("R").is_null())
     {
-      const Eigen::Matrix3d R = jsonMatrix(object.at("R"));
+      const Eigen::Matrix3d R = jsonMatrix(object.at("R"), 3, 3);
       const Eigen::Vector3d scale = jsonVector(object.at("scale"));
       this->matrix("R", R * R.transpose(), Eigen::Matrix3d::Identity());
       this->matrix("R diag(scale)", R * scale.asDiagonal(), camera_from_object.linear);
@@ -314,7 +320,7 @@ private:
         (i & 1) != 0 ? most.x() : least.x(), (i & 2) != 0 ? most.y() : least.y(), (i & 4) != 0 ? most.z() : least.z());
       corners.row(i) = camera_from_object * corner;
     }
-    this->matrix("box3d", jsonMatrix(object.at("box3d")), corners);
+    this->matrix("box3d", jsonMatrix(object.at("box3d"), 8, 3), corners);
   }
 
   Picture& Owner;
@@ -346,6 +352,7 @@ void checkBoxes(Picture& picture, Results& results)
   useJson(path,
     [&]
     {
+      check.place(document.at("camera"), document.at("frame"));
       for (const Json& object : document.at("objects"))
       {
         check.object(object);

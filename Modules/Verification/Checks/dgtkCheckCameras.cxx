@@ -2,13 +2,17 @@
 #include "dgtkCheck.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <set>
 
 namespace dgtk
 {
 
 namespace
 {
+namespace fs = std::filesystem;
+
 /// Numbers are written so that they read back as the same doubles; look-at matrices and tracks are computed once.
 constexpr double cameraTolerance = 1e-12;
 
@@ -129,6 +133,13 @@ void checkClassIds(const std::vector<ObjectRecord>& objects, Meter& meter)
   }
 }
 
+/// Whether a path of the dataset's documents leads to a file.
+bool leadsTo(const Dataset& dataset, const std::string& path, const std::string& file)
+{
+  std::error_code code;
+  return fs::weakly_canonical(fs::path(dataset.folder()) / path, code) == fs::weakly_canonical(file, code);
+}
+
 void compareObjects(Dataset& dataset, Meter& meter)
 {
   const int frame = dataset.cameras().empty() ? 0 : dataset.cameras().front().frame;
@@ -148,6 +159,11 @@ void compareObjects(Dataset& dataset, Meter& meter)
     const std::string expected =
       text(i + 1, instances[i].name, instances[i].className, instances[i].model->triangles.size());
     meter.equal(found == expected, [&] { return Offender{ "objects.json", -1, -1, found, expected }; });
+    const std::string& model = instances[i].model->path;
+    meter.equal(leadsTo(dataset, objects[i].model, model),
+      [&] {
+        return Offender{ "objects.json", -1, -1, found + " of " + objects[i].model, model };
+      });
     const std::uint32_t fixed = instances[i].classId;
     meter.equal(fixed == 0 || objects[i].classId == fixed,
       [&]
@@ -164,8 +180,15 @@ void compareObjects(Dataset& dataset, Meter& meter)
 void checkCameras(Dataset& dataset, Results& results)
 {
   Meter cameras(cameraTolerance);
+  std::set<std::pair<std::string, int>> seen;
   for (const CameraRecord& record : dataset.cameras())
   {
+    cameras.equal(seen.emplace(record.name, record.frame).second,
+      [&]
+      {
+        return Offender{ "cameras.json", -1, -1,
+          "camera '" + record.name + "' frame " + std::to_string(record.frame) + " twice", "once" };
+      });
     CameraCheck(record, dataset.sceneView(record), cameras).run();
   }
   results.add({ "cameras", "relative", { "cameras.json" } }, cameras);

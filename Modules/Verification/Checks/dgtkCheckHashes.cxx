@@ -37,13 +37,42 @@ void checkFile(
   meter.equal(hash == sha256, [&] { return Offender{ path, -1, -1, "SHA-256 " + hash, sha256 }; });
 }
 
+/// All files that the scene is made of, each once.
+void checkInputs(const Dataset& dataset, Meter& meter)
+{
+  std::set<std::string> listed;
+  for (const InputRecord& input : dataset.manifest().inputs)
+  {
+    meter.equal(listed.insert(input.path).second,
+      [&] {
+        return Offender{ input.path, -1, -1, "an input twice", "once" };
+      });
+    checkFile(dataset, input.path, input.bytes, input.sha256, meter);
+  }
+  std::set<fs::path> there;
+  std::error_code code;
+  for (const std::string& path : listed)
+  {
+    there.insert(fs::weakly_canonical(fs::path(dataset.folder()) / path, code));
+  }
+  const fs::path own = fs::weakly_canonical(fs::path(dataset.folder()) / "scene.json", code); // in place of the scene
+  for (const std::string& file : dataset.hasStage() ? dataset.stage().inputFiles() : std::vector<std::string>())
+  {
+    const fs::path path = fs::weakly_canonical(file, code);
+    meter.equal(path == own || there.count(path) > 0,
+      [&] {
+        return Offender{ file, -1, -1, "no input of the manifest", "one" };
+      });
+  }
+}
+
 /// Files that the manifest does not list.
 void checkUnlisted(const Dataset& dataset, Meter& meter)
 {
   std::set<std::string> listed;
   for (const DatasetFile& file : dataset.manifest().files)
   {
-    listed.insert(file.path);
+    meter.equal(listed.insert(file.path).second, [&] { return Offender{ file.path, -1, -1, "listed twice", "once" }; });
   }
   std::set<std::string> present;
   for (const auto& entry : fs::recursive_directory_iterator(dataset.folder()))
@@ -78,10 +107,7 @@ void checkHashes(Dataset& dataset, Results& results)
   results.add({ "files", "", {} }, all);
 
   Meter inputs(0);
-  for (const InputRecord& input : dataset.manifest().inputs)
-  {
-    checkFile(dataset, input.path, input.bytes, input.sha256, inputs);
-  }
+  checkInputs(dataset, inputs);
   results.add({ "inputs", "", {} }, inputs);
 
   Meter unlisted(0);

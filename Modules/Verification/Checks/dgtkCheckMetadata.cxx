@@ -3,7 +3,10 @@
 #include "dgtkCheck.h"
 
 #include <algorithm>
+#include <charconv>
+#include <filesystem>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace dgtk
@@ -17,6 +20,76 @@ constexpr int mostFrames = 1000;
 Offender inObjects(std::size_t id, const std::string& found, const std::string& expected)
 {
   return { "objects.json", -1, -1, "object " + std::to_string(id) + ' ' + found, expected };
+}
+
+/// `color` of `color_class`, `matting` of `matting_alpha`: what the folder of a layer's files begins with.
+std::string folderOf(const std::string& layer)
+{
+  constexpr const char* matting = "matting_";
+  const std::size_t kind = layer.rfind("_class");
+  return layer.rfind(matting, 0) == 0 ? "matting" : kind != std::string::npos ? layer.substr(0, kind) : layer;
+}
+
+/// What the manifest says of its pictures' files: their paths are CAMERA/LAYER/FRAME, and the list of layers has them.
+void checkFiles(const Dataset& dataset, Meter& meter)
+{
+  const Manifest& manifest = dataset.manifest();
+  std::set<std::pair<std::string, std::string>> there; // layer and format
+  std::set<std::string> cameras;
+  for (const CameraRecord& camera : dataset.cameras())
+  {
+    cameras.insert(camera.name);
+  }
+  for (const DatasetFile& file : manifest.files)
+  {
+    const std::filesystem::path path(file.path);
+    const std::string name = path.parent_path().filename().string();
+    const std::string camera = path.parent_path().parent_path().generic_string();
+    const std::string format = path.has_extension() ? path.extension().string().substr(1) : "";
+    there.emplace(file.layer, format);
+    const bool known = cameras.count(camera) > 0 || file.layer == "points";
+    if (!known && file.frame < 0)
+    {
+      continue;
+    }
+    const std::string folder = folderOf(file.layer);
+    int frame = -1;
+    const std::string digits = path.filename().string();
+    std::from_chars(digits.data(), digits.data() + digits.size(), frame);
+    const bool same = !folder.empty() && (name == folder || name.rfind(folder + '_', 0) == 0) && frame == file.frame &&
+                      (camera.empty() ? cameras.count(file.camera) > 0 : camera == file.camera);
+    meter.equal(same,
+      [&]
+      {
+        return Offender{ "manifest.json", -1, -1,
+          file.path + " of layer '" + file.layer + "' camera '" + file.camera + "' frame " + std::to_string(file.frame),
+          "what its path says" };
+      });
+  }
+  std::set<std::pair<std::string, std::string>> listed;
+  std::set<std::string> names{ "", "calibration", "tiles" }; // these are no layers of pixels
+  for (const LayerRecord& layer : manifest.layers)
+  {
+    listed.emplace(layer.spec.name, layer.format); // earlier versions have some twice
+    names.insert(layer.spec.name);
+    const bool none = std::any_of(manifest.empty.begin(), manifest.empty.end(),
+      [&](const EmptyRecord& one) { return one.layer == folderOf(layer.spec.name) && one.pictures == one.of; });
+    meter.equal(none || there.count({ layer.spec.name, layer.format }) > 0,
+      [&]
+      {
+        return Offender{ "manifest.json", -1, -1, "layer '" + layer.spec.name + "' as " + layer.format,
+          "one that has files" };
+      });
+  }
+  for (const auto& one : there)
+  {
+    const bool further = one.first.empty() || one.first == "calibration" || one.first == "tiles" ||
+                         one.first == "points" || one.first == "pov" || one.first == "tracks";
+    meter.equal(names.count(one.first) > 0 && (further || listed.count(one) > 0),
+      [&] {
+        return Offender{ "manifest.json", -1, -1, "no layer '" + one.first + "' as " + one.second, "one" };
+      });
+  }
 }
 
 void checkManifest(const Dataset& dataset, Results& results)
@@ -42,6 +115,7 @@ void checkManifest(const Dataset& dataset, Results& results)
     equal("info." + word, found == manifest.info.end() ? "none" : '\'' + found->second + '\'',
       expected == scene.dataset.end() ? "none" : '\'' + expected->second + '\'');
   }
+  checkFiles(dataset, meter);
   results.add({ "manifest", "", { "manifest.json" } }, meter);
 }
 

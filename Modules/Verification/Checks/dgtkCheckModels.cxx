@@ -5,6 +5,7 @@
 #include "dgtkHash.h"
 #include "dgtkPlyFile.h"
 
+#include <filesystem>
 #include <set>
 
 namespace dgtk
@@ -30,6 +31,8 @@ public:
   {
     files.push_back(this->File);
     const Model& model = *this->TheInstance.model;
+    shapes.equal(
+      this->Ply.isWellFormed(), [&] { return this->offender("another header or end", "those of its vertices"); });
     shapes.equal(this->Ply.triangles() == model.triangles.size(),
       [&]
       {
@@ -143,7 +146,17 @@ void checkModels(Dataset& dataset, Results& results)
       ModelCheck(dataset, file, state->instances[i]).run(shapes, looks, files);
     }
   }
-  if (!seen.empty())
+  const std::vector<DatasetFile>& written = dataset.manifest().files;
+  for (const DatasetFile& one : written)
+  {
+    const std::filesystem::path path(one.path);
+    const bool model = path.parent_path() == "models" && path.extension() == ".ply";
+    shapes.equal(!model || seen.count(one.path) > 0,
+      [&] {
+        return Offender{ "objects.json", -1, -1, "no object has " + one.path, "a geometry_file" };
+      });
+  }
+  if (!seen.empty() || shapes.Bad > 0)
   {
     results.add({ "shapes", "", files }, shapes);
     results.add({ "looks", "step of 8 bits", files }, looks);

@@ -22,6 +22,9 @@ constexpr double trackTolerance = 1e-8;
 /// Part of the depth.
 constexpr double surfaceTolerance = 1e-9;
 constexpr std::size_t plyVertexBytes = 47;
+constexpr const char* plyProperties =
+  "\nproperty double x\nproperty double y\nproperty double z\nproperty float nx\nproperty float ny\nproperty float nz"
+  "\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty uint object\nproperty uint triangle";
 /// One rounding of float32.
 constexpr double normalTolerance = 1e-7;
 
@@ -61,6 +64,11 @@ public:
     : File(std::move(file))
     , Points(cloudOf(points))
   {
+    if (points.frame != frame ||
+        std::set<std::string>(points.cameras.begin(), points.cameras.end()).size() != points.cameras.size())
+    {
+      throw InputError(dataset.absolute(this->File), 0, "is of another frame, or names a camera twice");
+    }
     for (const std::string& camera : points.cameras)
     {
       const CameraRecord* record = dataset.camera(camera, frame);
@@ -79,6 +87,8 @@ public:
     if (this->Sights.empty() || point.hit.object == 0 ||
         point.hit.object > this->Sights[0]->middle()->state().instances.size() ||
         point.hit.triangle >= this->Sights[0]->middle()->instance(point.hit.object).model->triangles.size() ||
+        std::adjacent_find(point.track.begin(), point.track.end(),
+          [](const SeenTrack& a, const SeenTrack& b) { return a.camera >= b.camera; }) != point.track.end() ||
         point.track.empty())
     {
       return false;
@@ -148,16 +158,24 @@ public:
             index, "seen by camera '" + look.sight->eye().record().name + "'", "hidden or outside there");
         });
     }
+    if (this->isSound(point) && !this->Rolls)
+    {
+      this->unseen(index, meter);
+    }
   }
 
   /// The vertices of the .ply are the points, with the normals and colours of their surfaces.
   void ply(const Dataset& dataset, const std::string& file, Meter& meter, Meter& normals, Meter& colors) const
   {
     const std::string bytes = readFile(dataset.absolute(file));
-    const std::string mark = "end_header\n";
-    const std::size_t header = bytes.find(mark);
+    const std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                               std::to_string(this->Points.size()) + plyProperties + "\nend_header\n";
     const std::size_t expected = this->Points.size() * plyVertexBytes;
-    const std::size_t start = header == std::string::npos ? bytes.size() : header + mark.size();
+    const std::size_t start = bytes.compare(0, header.size(), header) == 0 ? header.size() : bytes.size();
+    meter.equal(start == header.size(),
+      [&] {
+        return Offender{ file, -1, -1, "another header", "that of the points" };
+      });
     meter.equal(bytes.size() - start == expected,
       [&]
       {
@@ -187,6 +205,33 @@ public:
   }
 
 private:
+  /// Cameras that are not in a point's track do not see it.
+  void unseen(std::size_t index, Meter& meter) const
+  {
+    const CloudPoint& point = this->Points[index];
+    for (std::size_t camera = 0; camera < this->Sights.size(); ++camera)
+    {
+      const bool tracked = std::any_of(
+        point.track.begin(), point.track.end(), [&](const SeenTrack& track) { return track.camera == camera; });
+      const Look look{ this->Sights[camera]->middle(), point.x };
+      Eigen::Vector2d pixel;
+      if (tracked || !look.sight->eye().project(look.sight->eye().toCamera(point.x), pixel))
+      {
+        continue;
+      }
+      const bool seen = isSeen(look, point.hit, pixel, surfaceTolerance);
+      if (seen && isOpen(look, point.hit, pixel, false))
+      {
+        meter.skip();
+        continue;
+      }
+      meter.equal(!seen,
+        [&] {
+          return this->offender(index, "not seen by camera '" + look.sight->eye().record().name + "'", "seen there");
+        });
+    }
+  }
+
   /// Unit, in the world, on the side of the camera that the point comes from.
   void normal(const std::string& file, std::size_t index, const char* bytes, Meter& meter) const
   {
@@ -272,14 +317,16 @@ private:
     return true;
   }
 
-  static bool isOpen(const Look& look, const Hit& own, const Eigen::Vector2d& pixel)
+  /// Whether a point may be seen beside where it is, or hidden.
+  static bool isOpen(const Look& look, const Hit& own, const Eigen::Vector2d& pixel, bool otherwise = true)
   {
     const Eigen::Vector2d reach = look.sight->eye().reach(silhouetteReach, look.sight->eye().toCamera(look.x_in_world));
     for (int i = 0; i <= 16; ++i)
     {
       constexpr double sixteenth = 0.39269908169872414;
       const Eigen::Vector2d direction(std::cos(i * sixteenth), std::sin(i * sixteenth));
-      if (isSeen(look, own, pixel + (i == 16 ? 0.0 : 1.0) * reach.cwiseProduct(direction), silhouetteReach))
+      const Eigen::Vector2d beside = pixel + (i == 16 ? 0.0 : 1.0) * reach.cwiseProduct(direction);
+      if (isSeen(look, own, beside, otherwise ? silhouetteReach : -silhouetteReach) == otherwise)
       {
         return true;
       }

@@ -72,6 +72,7 @@ public:
   const Manifest& manifest() const { return this->TheManifest; }
   const std::vector<CameraRecord>& cameras() const { return this->Cameras; }
   const std::vector<ObjectRecord>& objects() const { return this->Objects; }
+  bool hasStage() const { return this->TheStage != nullptr; }
   const Stage& stage() const { return *this->TheStage; }
   ThreadPool& pool() { return this->Pool; }
   std::string absolute(const std::string& file) const { return this->Folder + '/' + file; }

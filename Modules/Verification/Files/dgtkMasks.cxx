@@ -20,6 +20,10 @@ Masks readMasks(const std::string& path, int width, int height)
   for (const MaskRecord& record : file.masks)
   {
     std::vector<char>& mask = masks.byId[record.id];
+    if (!mask.empty())
+    {
+      throw InputError(path, 0, "has two masks of object " + std::to_string(record.id));
+    }
     mask.assign(std::size_t(width) * height, 0);
     std::size_t at = 0; // columns from left to right, each from top to bottom
     char inside = 0;

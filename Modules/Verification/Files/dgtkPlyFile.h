@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -63,9 +64,31 @@ public:
         this->HasNumbers = this->HasNumbers || name == "texnumber";
       }
     }
-    this->At = std::size_t(header.tellg());
+    this->At = line == "end_header" && header ? std::size_t(header.tellg()) : this->Data.size();
     this->readVertices();
     this->readTriangles();
+  }
+
+  /// Whether its first lines are those of DGTk's models with its own numbers, and nothing follows the last triangle.
+  bool isWellFormed() const
+  {
+    std::ostringstream header;
+    header << "ply\nformat binary_little_endian 1.0\n";
+    for (const std::string& picture : this->Pictures)
+    {
+      header << "comment TextureFile " << picture << '\n';
+    }
+    header << "element vertex " << this->Vertices.size()
+           << "\nproperty double x\nproperty double y\nproperty double z\nproperty float nx\nproperty float ny"
+              "\nproperty float nz"
+           << (this->HasUvs ? "\nproperty double s\nproperty double t" : "")
+           << "\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face " << this->Triangles.size()
+           << "\nproperty list uchar int vertex_indices" << (this->HasNumbers ? "\nproperty int texnumber" : "")
+           << "\nend_header\n";
+    const std::string text = header.str();
+    const std::set<std::string> different(this->Pictures.begin(), this->Pictures.end());
+    return different.size() == this->Pictures.size() && this->Data.compare(0, text.size(), text) == 0 &&
+           this->At == this->Data.size();
   }
 
   const std::vector<std::string>& pictures() const { return this->Pictures; }
