@@ -175,7 +175,8 @@ void TestEditorViewer::boxesAndPointsLieOverPictures()
 {
   QMainWindow* viewer = this->open(this->dataset());
   QVERIFY(viewer != nullptr);
-  QVERIFY(!viewer->findChild<QAction*>("boxes")->isEnabled()); // this one has none
+  QVERIFY(!viewer->findChild<QAction*>("boxes")
+             ->isEnabled()); // this one has none // NOLINT(clang-analyzer-core.CallAndMessage): QVERIFY has returned
   QVERIFY(viewer->close());
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
   viewer = this->open(this->richDataset());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampleVerification.h"
 
+#include "dgtkFolder.h"
 #include "dgtkHash.h"
 #include "dgtkJsonFile.h"
 #include "dgtkMeshOverlap.h"
@@ -9,6 +10,8 @@
 #include "dgtkStage.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 
@@ -94,13 +97,18 @@ public:
     useJson(path,
       [&]
       {
+        std::int64_t number = record.at("first");
         for (const Json& sample : record.at("samples"))
         {
+          this->number(sample, number++);
           if (sample.contains("file"))
           {
             this->check(sample);
           }
         }
+        const std::int64_t end = record.at("last").get<std::int64_t>() + 1;
+        this->record(record.at("complete") ? number == end : number <= end, "samples to " + std::to_string(number - 1),
+          "to " + std::to_string(end - 1));
         return 0;
       });
     Results results;
@@ -110,19 +118,62 @@ public:
     results.add({ "", "tolerances", {} }, this->Depths);
     results.startCheck(2, "gap");
     results.add({ "", "tolerances", {} }, this->Gaps);
+    results.startCheck(3, "record");
+    results.add({ "", "", {} }, this->Record);
     return results.report();
   }
 
 private:
+  void record(bool right, const std::string& found, const std::string& expected)
+  {
+    this->Record.equal(right, [&] { return Offender{ recordName, -1, -1, found, expected }; });
+  }
+
+  /// Samples follow one another; each has the file of its number, or says why it has none.
+  void number(const Json& sample, std::int64_t expected)
+  {
+    const std::string what = "sample " + sample.at("sample").dump();
+    this->record(sample.at("sample") == expected, what, std::to_string(expected));
+    const bool refused = sample.contains("refused");
+    this->record(refused != sample.contains("file"), what, "either a file or why it was refused");
+    if (refused)
+    {
+      this->record(!sample.at("refused").at("why").get<std::string>().empty(), what, "why it was refused");
+      return;
+    }
+    char name[32];
+    std::snprintf(name, sizeof name, "%06lld.json", static_cast<long long>(expected));
+    this->record(sample.at("file") == name, what + " in " + sample.at("file").dump(), name);
+  }
+
+  /// What was measured where an object was placed is within its tolerance.
+  void claimed(const Json& sample)
+  {
+    for (const Json& note : sample.value("notes", Json::array()))
+    {
+      const Json measured = note.value("measured", Json::object());
+      const double tolerance = measured.value("tolerance", infinite);
+      for (const char* key : { "penetration", "gap" })
+      {
+        const double value = measured.value(key, 0.0);
+        this->record(!note.at("kept") || (value >= 0 && value <= tolerance),
+          note.at("path").get<std::string>() + ' ' + key + ' ' + numberText(value), "within " + numberText(tolerance));
+      }
+    }
+  }
+
   void check(const Json& sample)
   {
     const std::string file = sample.at("file");
-    const std::string path = this->Folder + '/' + file;
+    const std::string path = dgtk::Folder(this->Folder).fileAt(file);
     const std::string hash = hashOfFile(path);
     this->Hashes.equal(hash == sample.at("sha256"),
       [&] {
         return Offender{ file, -1, -1, hash, sample.at("sha256") };
       });
+    const Json seed = readJsonFile(path).value("seed", Json());
+    this->record(seed == sample.at("seed"), file + " of seed " + seed.dump(), sample.at("seed").dump());
+    this->claimed(sample);
     const std::vector<Claim> claims = claimsOf(sample);
     if (claims.empty())
     {
@@ -186,6 +237,7 @@ private:
   Meter Hashes{ 0 };
   Meter Depths{ 1 };
   Meter Gaps{ 1 };
+  Meter Record{ 0 };
 };
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampleVerification.h"
 
+#include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkMeshOverlap.h"
@@ -28,18 +29,23 @@ WorldMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
   return mesh;
 }
 
-/// A folder of one sample: a brick at a height over the table's top, turned a little about the vertical.
-VerificationReport bricks(double above)
+/// A folder of one sample: a brick at a height over the table's top, turned a little about the vertical. A word of its
+/// record is replaced.
+VerificationReport bricks(double above, const std::string& word = "", const std::string& instead = "")
 {
   const test::TemporaryFolder folder;
   const std::string scene =
-    R"({ "objects": [ { "name": "table", "model": ")" + test::sourceFile("Data/Models/table.ac") +
+    R"({ "seed": 7, "objects": [ { "name": "table", "model": ")" + test::sourceFile("Data/Models/table.ac") +
     R"(" }, { "name": "brick", "model": ")" + test::sourceFile("Data/Models/brick.ac") +
     R"(", "orientation": [0.98, 0, 0.2, 0], "position": [0.1, )" + std::to_string(0.75 + above) + ", 0.1] } ] }";
   writeFile(folder.path("000000.json"), scene);
-  writeFile(folder.path("samples.json"),
-    R"({ "samples": [ { "sample": 0, "file": "000000.json", "sha256": ")" + hashOfFile(folder.path("000000.json")) +
-      R"(", "notes": [ { "path": "objects/brick/place", "kept": true, "attempts": 1, "measured": { "penetration": 0, "gap": 0, "tolerance": 0.0005 } } ] } ] })");
+  std::string record =
+    R"({ "complete": true, "first": 0, "last": 0, "samples": [ { "sample": 0, "file": "000000.json", "seed": 7, "sha256": ")" +
+    hashOfFile(folder.path("000000.json")) +
+    R"(", "notes": [ { "path": "objects/brick/place", "kept": true, "attempts": 1, "measured": { "penetration": 0, "gap": 0, "tolerance": 0.0005 } } ] } ] })";
+  const std::size_t place = record.find(word);
+  EXPECT_NE(place, std::string::npos) << word;
+  writeFile(folder.path("samples.json"), record.replace(place, word.size(), instead));
   EXPECT_TRUE(isSampleFolder(folder.path("")));
   return verifySamples(folder.path(""));
 }
@@ -82,4 +88,35 @@ TEST(SampleVerification, SeesWhatHoversAndWhatSinks)
   const VerificationReport sinks = bricks(-0.0006);
   EXPECT_FALSE(sinks.passed());
   EXPECT_EQ(sinks.firstBreach()->check, "penetration");
+}
+
+TEST(SampleVerification, TheRecordAgreesWithItselfAndItsFiles)
+{
+  const char* const words[][2] = { { R"("first": 0)", R"("first": 1)" }, { R"("last": 0)", R"("last": 1)" },
+    { R"("last": 0)", R"("last": -1)" }, { R"("sample": 0)", R"("sample": 1)" }, { R"("seed": 7)", R"("seed": 8)" },
+
+    { R"("file": "000000.json")", R"("refused": { "why": "" })" },
+    { R"("seed": 7)", R"("seed": 7, "refused": { "why": "it fell" })" },
+    { R"("penetration": 0)", R"("penetration": 0.0006)" }, { R"("penetration": 0)", R"("penetration": -0.0001)" },
+    { R"("gap": 0)", R"("gap": 0.0006)" } };
+  for (const auto& [word, instead] : words)
+  {
+    const VerificationReport report = bricks(0, word, instead);
+    ASSERT_FALSE(report.passed()) << instead;
+    EXPECT_EQ(report.firstBreach()->check, "record") << instead;
+    EXPECT_EQ(report.firstBreach()->worst.file, "samples.json") << instead;
+  }
+  EXPECT_TRUE(
+    bricks(0, R"("complete": true, "first": 0, "last": 0)", R"("complete": false, "first": 0, "last": 3)").passed());
+  EXPECT_FALSE(
+    bricks(0, R"("complete": true, "first": 0, "last": 0)", R"("complete": false, "first": 0, "last": -1)").passed());
+  EXPECT_TRUE(bricks(0, R"("file": "000000.json")", R"("refused": { "why": "it fell" })").passed());
+}
+
+TEST(SampleVerification, NothingOutsideOfTheFolderIsOpened)
+{
+  for (const char* file : { "../000000.json", "/dev/null", "000001.json" })
+  {
+    EXPECT_THROW(bricks(0, "000000.json", file), InputError) << file;
+  }
 }

@@ -54,8 +54,13 @@ void BopAnnotations::judgeOne(const std::string& where, const Json& one, const I
       "coco", this->File, where + ' ' + key, one.at(key) == expected, one.at(key).dump(), expected.dump());
   };
   const CameraRecord* camera = this->Judge.source().camera(instance.picture.camera, instance.picture.frame);
-  const int width = camera ? camera->width : 0;
-  const int height = camera ? camera->height : 0;
+  this->Judge.holds("coco", this->File, where, camera != nullptr, "a picture of no camera", "one of the dataset");
+  if (camera == nullptr)
+  {
+    return;
+  }
+  const int width = camera->width;
+  const int height = camera->height;
   const Eigen::Vector4d box = cornersOfMask(whole, width);
   holds("category_id", instance.model);
   holds("area", std::count(visible.begin(), visible.end(), char(1)));

@@ -148,7 +148,7 @@ private:
     const auto channel = channels == this->Channels.end() ? std::map<std::string, GltfChannel>::const_iterator()
                                                           : channels->second.find(path);
     const Json& one = this->Document.at("nodes").at(node);
-    const Eigen::VectorXd still = one.contains(path) ? gltfList(one.at(path), std::size_t(usual.size())) : usual;
+    Eigen::VectorXd still = one.contains(path) ? gltfList(one.at(path), std::size_t(usual.size())) : usual;
     if (channels != this->Channels.end() && channel != channels->second.end())
     {
       const Eigen::VectorXd first = channel->second.at(this->timeOf(*this->Frames.begin()));

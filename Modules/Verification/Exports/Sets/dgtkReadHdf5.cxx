@@ -21,22 +21,22 @@ struct Key
 {
   const char* name;
   const char* layer;
-  Hdf5Dataset::Kind kind;
   double nothing; ///< stands for no value; NaN
+  Hdf5Dataset::Kind kind;
   bool isLength;
 };
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double farAway = 1e10;
-constexpr Key keys[] = { { "colors", "", Hdf5Dataset::Kind::Whole, notANumber, false },
-  { "depth", "", Hdf5Dataset::Kind::Real, farAway, true },
-  { "distance", "distance", Hdf5Dataset::Kind::Real, farAway, true },
-  { "normals", "normal", Hdf5Dataset::Kind::Real, 0.5, false },
-  { "nocs", "objectcoords", Hdf5Dataset::Kind::Real, 0, false },
-  { "instance_segmaps", "objects", Hdf5Dataset::Kind::Whole, notANumber, false },
-  { "class_segmaps", "classes", Hdf5Dataset::Kind::Whole, notANumber, false },
-  { "forward_flow", "flow_forward", Hdf5Dataset::Kind::Real, notANumber, false },
-  { "backward_flow", "flow_backward", Hdf5Dataset::Kind::Real, notANumber, false },
-  { "disparity", "disparity", Hdf5Dataset::Kind::Real, notANumber, false } };
+constexpr Key keys[] = { { "colors", "", notANumber, Hdf5Dataset::Kind::Whole, false },
+  { "depth", "", farAway, Hdf5Dataset::Kind::Real, true },
+  { "distance", "distance", farAway, Hdf5Dataset::Kind::Real, true },
+  { "normals", "normal", 0.5, Hdf5Dataset::Kind::Real, false },
+  { "nocs", "objectcoords", 0, Hdf5Dataset::Kind::Real, false },
+  { "instance_segmaps", "objects", notANumber, Hdf5Dataset::Kind::Whole, false },
+  { "class_segmaps", "classes", notANumber, Hdf5Dataset::Kind::Whole, false },
+  { "forward_flow", "flow_forward", notANumber, Hdf5Dataset::Kind::Real, false },
+  { "backward_flow", "flow_backward", notANumber, Hdf5Dataset::Kind::Real, false },
+  { "disparity", "disparity", notANumber, Hdf5Dataset::Kind::Real, false } };
 
 std::string requested(const ExportedFrom& source, const std::string& option)
 {
