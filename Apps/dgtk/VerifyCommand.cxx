@@ -3,22 +3,59 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkFolder.h"
+#include "dgtkHash.h"
+#include "dgtkJournal.h"
 #include "dgtkJson.h"
+#include "dgtkRunParts.h"
 #include "dgtkSceneFolders.h"
 #include "dgtkUtf8.h"
 #include "dgtkVerificationCalls.h"
 
 #include <cstdio>
+#include <filesystem>
+#include <set>
 
 namespace dgtk::app
 {
 
 namespace
 {
+/// Whether the manifests of a folder's datasets are those that its own one has.
+bool areListed(const std::string& folder)
+{
+  std::set<std::string> known;
+  bool same = true;
+  const auto wrong = [&](const std::string& file, const std::string& why)
+  {
+    std::fprintf(stderr, "dgtk: %s\n", printable(folder + '/' + file + ": " + why).c_str());
+    same = false;
+  };
+  for (const DatasetFile& file : readDatasets(folder).datasets)
+  {
+    known.insert(file.path);
+    const std::string path = Folder(folder).fileAt(file.path);
+    if (Sha256::ofFile(path) != file.sha256 || std::filesystem::file_size(path) != file.bytes)
+    {
+      wrong(file.path, "found other bytes, expected those that " + std::string(manifestName) + " has");
+    }
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    const std::string file = entry.path().filename().string() + '/' + manifestName;
+    if (entry.is_directory() && known.count(file) == 0 && std::filesystem::exists(folder + '/' + file))
+    {
+      wrong(file, "found a dataset that " + std::string(manifestName) + " does not list, expected none");
+    }
+  }
+  return same;
+}
+
 /// Every dataset of a folder of datasets: a line each, and the table of those with a breach.
 int verifyScenes(const std::string& folder, const std::vector<std::string>& scenes, int threads,
   const std::vector<std::string>& checks, bool json)
 {
+  const bool listed = areListed(folder);
   std::size_t bad = 0;
   std::string all;
   for (const std::string& scene : scenes)
@@ -43,7 +80,7 @@ int verifyScenes(const std::string& folder, const std::vector<std::string>& scen
   print(json
           ? "{\n" + all + "}\n"
           : folder + ": " + std::to_string(scenes.size()) + " datasets, " + std::to_string(bad) + " with a breach\n");
-  return static_cast<int>(bad == 0 ? ExitCode::Done : ExitCode::Difference);
+  return static_cast<int>(bad == 0 && listed ? ExitCode::Done : ExitCode::Difference);
 }
 
 int runVerify(const Arguments& arguments)

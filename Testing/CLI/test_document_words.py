@@ -11,7 +11,7 @@ import re
 import shutil
 import subprocess
 
-from harness import DGTK, Case, load_json, main
+from harness import DGTK, SOURCE, Case, load_json, main
 from referee import SCENE
 from word_changes import changes_of, json_changes
 
@@ -106,6 +106,37 @@ class Words(Case):
             with self.subTest(command[0]):
                 found = self.sweep(changes, *command)
                 self.assertEqual([f"{self.place(change)}: exit {status} {text}" for change, status, text in found if status not in (0, 1, 2, 3)], [])
+
+    def test_a_folder_of_datasets(self):
+        """Its manifest names all datasets and their bytes; nobody who reads it fails otherwise."""
+        self.dgtk("sample", os.path.join(SOURCE, "Data", "Recipes", "street.json"), "-o", self.path("scenes"), "--samples", "0:1", "--quiet")
+        folder = self.path("many")
+        self.dgtk("render", self.path("scenes"), "-o", folder, "--size", "24x18", "--frames", "0", "--layers", "objects,boxes,amodal,color", "--quiet")
+        self.dgtk("verify", folder)
+        manifest = os.path.join(folder, "manifest.json")
+        sound = load_json(manifest)
+        unseen, wrong = [], []
+        for what, changed in json_changes(sound):
+            self.write(manifest, json.dumps(changed))
+            for command in (("verify", "{}", "--check", "hashes"), *READERS[:3]):
+                done = subprocess.run([DGTK, *(word.replace("{}", folder) for word in command)], capture_output=True, text=True)
+                if done.returncode == 0 and command[0] == "verify":
+                    unseen.append(what)
+                elif done.returncode not in (0, 1, 2, 3):
+                    wrong.append(f"{command[0]} {what}: exit {done.returncode} {done.stderr}")
+        self.assertEqual(wrong, [])
+        self.assertEqual([what for what in unseen if not re.fullmatch("version|-?request/.*|(shorter |longer )?left_out(/0)?", what)], [])
+        self.write(manifest, json.dumps(sound))
+        shutil.copytree(os.path.join(folder, "000001"), os.path.join(folder, "000002"))
+        self.assertIn("000002/manifest.json: found a dataset that manifest.json does not list", self.dgtk("verify", folder, status=1).stderr)
+
+    def test_reports_of_what_was_verified(self):
+        dataset, verified = self.path("dataset"), self.path("verification.json")
+        for what, changed in json_changes(json.loads(self.dgtk("verify", dataset, "--json", "--check", "cameras,metadata").stdout)):
+            self.write(verified, json.dumps(changed))
+            done = subprocess.run([DGTK, "report", dataset, "-o", self.path("report.html"), "--pictures", "1", "--read", "1", "--verification", verified],
+                                  capture_output=True, text=True)
+            self.assertIn(done.returncode, (0, 3), f"{what}: {done.stderr}")
 
 
 if __name__ == "__main__":

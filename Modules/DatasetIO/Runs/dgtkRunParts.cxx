@@ -184,9 +184,15 @@ DatasetsManifest readDatasets(const std::string& path)
   manifest.requestHash = hashOf(root["request_hash"]);
   manifest.request = pairsIn(root["request"]);
   manifest.leftOut = textsIn(root["left_out"]);
+  std::set<std::string> there;
   for (const JsonCursor& item : root["datasets"].items())
   {
     manifest.datasets.push_back(fileOf(item));
+    const std::filesystem::path file(manifest.datasets.back().path);
+    if (file.filename() != manifestName || !file.has_parent_path() || !there.insert(file.string()).second)
+    {
+      item["path"].fail("is not the manifest of a further dataset", "FOLDER/manifest.json", quoted(file.string()));
+    }
   }
   return manifest;
 }
