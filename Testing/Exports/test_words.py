@@ -13,6 +13,7 @@ import shutil
 import subprocess
 
 import datasets
+import pictures
 from datasets import load_json, main, sealed
 from harness import DGTK
 from planted_exports import ALONE, PLANTS
@@ -48,11 +49,16 @@ class Words(datasets.ExportCase):
     def judge(self, folder):
         """(status, rows with an error, all rows)."""
         done = subprocess.run([DGTK, "verify", self.dataset, "--export", folder, "--json", "--threads", "1"], capture_output=True)
+        self.assertRegex(done.stderr, b"^(dgtk: .*\n)?$")  # nothing of a library's
         rows = {row["layer"]: row for row in json.loads(done.stdout)["residuals"]} if done.returncode in (0, 1) else {}
         return done.returncode, {layer: row for layer, row in rows.items() if row["breach"]}, rows
 
     def write(self, path, data):
         os.remove(path)  # it may be a link to the dataset's
+        self.write_new(path, data)
+
+    @staticmethod
+    def write_new(path, data):
         with open(path, "wb") as file:
             file.write(data)
 
@@ -78,6 +84,17 @@ class Words(datasets.ExportCase):
             data = file.read()
         return data if hasattr(edit, "of_path") else edit(data)
 
+    def smaller(self, name, data):
+        """(what lacks, the bytes) of a picture."""
+        if name.endswith(".png") and data[25] != 3:  # with a palette
+            source = self.path("whole" + hashlib.sha256(data).hexdigest())
+            self.write_new(source, data)
+            image = pictures.read_png(source)
+            for what, part in (("a row", image[:-1]), ("a column", image[:, :-1])):
+                pictures.write_png(source, part)
+                with open(source, "rb") as file:
+                    yield what, file.read()
+
     def sweep(self, form):
         """(rows in which errors were seen, all rows, what was not seen, what went wrong)."""
         folder = self.path(form)
@@ -95,6 +112,10 @@ class Words(datasets.ExportCase):
                     seen.update(rows)
                     if status not in (0, 1):
                         wrong.append(f"{name} byte {at}: exit {status}")
+                for what, smaller in self.smaller(name, data):
+                    status, _, _ = self.changed(folder, record, name, smaller)
+                    if status not in (1, 3):
+                        wrong.append(f"{name} {what} less: exit {status}")
                 continue
             for what, changed in changes_of(name, data):
                 status, rows, _ = self.changed(folder, record, name, changed) if changed != data else (1, {}, None)

@@ -22,7 +22,8 @@ Offender inObjects(std::size_t id, const std::string& found, const std::string& 
   return { "objects.json", -1, -1, "object " + std::to_string(id) + ' ' + found, expected };
 }
 
-/// `color` of `color_class`, `matting` of `matting_alpha`: what the folder of a layer's files begins with.
+/// `flow_forward` of `flow_forward_class`, `matting` of `matting_alpha`: the folder of a layer's files, or its
+/// beginning.
 std::string folderOf(const std::string& layer)
 {
   constexpr const char* matting = "matting_";
@@ -53,11 +54,12 @@ void checkFiles(const Dataset& dataset, Meter& meter)
       continue;
     }
     const std::string folder = folderOf(file.layer);
+    const bool manyFolders = folder == "correspondence" || folder == "matting";
     int frame = -1;
     const std::string digits = path.filename().string();
     std::from_chars(digits.data(), digits.data() + digits.size(), frame);
-    const bool same = !folder.empty() && (name == folder || name.rfind(folder + '_', 0) == 0) && frame == file.frame &&
-                      (camera.empty() ? cameras.count(file.camera) > 0 : camera == file.camera);
+    const bool same = !folder.empty() && (name == folder || (manyFolders && name.rfind(folder + '_', 0) == 0)) &&
+                      frame == file.frame && (camera.empty() ? cameras.count(file.camera) > 0 : camera == file.camera);
     meter.equal(same,
       [&]
       {
