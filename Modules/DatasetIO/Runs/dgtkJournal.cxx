@@ -407,6 +407,7 @@ bool isFinished(const std::string& path, const std::string& requestHash)
   const FileDescriptor left = folder.open(journalName, O_RDWR | O_NONBLOCK);
   if (left && ::flock(left.number(), LOCK_EX | LOCK_NB) == 0 && folder.look(manifestName) == EntryKind::File)
   {
+    folder.remove(partialName(journalName)); // of one who was killed while the journal was written anew
     folder.remove(journalName);
   }
   return true;
@@ -424,6 +425,7 @@ void Journal::close(const std::function<void(AtomicFile& document)>& write)
   AtomicFile document(FilePlace(this->Self->folder.path(), this->Self->document));
   write(document);
   document.commitDurably();
+  this->Self->folder.remove(partialName(journalName));
   this->Self->folder.remove(journalName);
 }
 

@@ -223,9 +223,12 @@ TEST(Journal, OneThatAKilledRunLeftBesideItsManifestGoes)
     manifest.files.push_back(addFile(run, folder.path(), "a.npy", "1"));
     EXPECT_FALSE(isFinished(folder.path(), "one"));
     killed = readFile(journal);
+    writeFile(partialName(journal), "of one who was killed");
     run.close(manifest);
+    EXPECT_FALSE(fs::exists(partialName(journal)));
   }
   writeFile(journal, killed);
+  writeFile(partialName(journal), killed);
   EXPECT_FALSE(isFinished(folder.path(), "other"));
   EXPECT_TRUE(fs::exists(journal));
   {
@@ -233,9 +236,11 @@ TEST(Journal, OneThatAKilledRunLeftBesideItsManifestGoes)
     ASSERT_EQ(::flock(running.number(), LOCK_EX | LOCK_NB), 0);
     EXPECT_FALSE(isFinished(folder.path(), "one")) << "a process is at it";
     EXPECT_TRUE(fs::exists(journal));
+    EXPECT_TRUE(fs::exists(partialName(journal)));
   }
   EXPECT_TRUE(isFinished(folder.path(), "one"));
   EXPECT_FALSE(fs::exists(journal));
+  EXPECT_FALSE(fs::exists(partialName(journal)));
   EXPECT_TRUE(isFinished(folder.path(), "one"));
   EXPECT_EQ(readFile(folder.path("a.npy")), "1");
 }

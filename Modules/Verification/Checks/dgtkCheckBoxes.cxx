@@ -165,11 +165,12 @@ private:
         });
       return;
     }
+    const std::vector<double> numbers = numberList(found, 4);
     const double size = std::max(this->Owner.width(), this->Owner.height());
-    for (std::size_t i = 0; i < requireSize(found, 4); ++i)
+    for (std::size_t i = 0; i < 4; ++i)
     {
       const double far = std::abs(expected.box[i]) / size;
-      this->number(meter, key, found.at(i).get<double>(), expected.box[i], std::max(1.0, far * far));
+      this->number(meter, key, numbers[i], expected.box[i], std::max(1.0, far * far));
     }
   }
 

@@ -146,8 +146,7 @@ void checkModels(Dataset& dataset, Results& results)
       ModelCheck(dataset, file, state->instances[i]).run(shapes, looks, files);
     }
   }
-  const std::vector<DatasetFile>& written = dataset.manifest().files;
-  for (const DatasetFile& one : written)
+  for (const DatasetFile& one : dataset.manifest().files)
   {
     const std::filesystem::path path(one.path);
     const bool model = path.parent_path() == "models" && path.extension() == ".ply";
