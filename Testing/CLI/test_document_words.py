@@ -12,6 +12,7 @@ import shutil
 import subprocess
 
 from harness import DGTK, SOURCE, Case, load_json, main
+from many_runs import ManyRuns
 from referee import SCENE
 from word_changes import changes_of, json_changes
 
@@ -40,6 +41,7 @@ class Words(Case):
         scene["cameras"] = [dict(camera, width=20, height=15) for camera in (scene["cameras"][0], scene["cameras"][1], scene["cameras"][3])]
         self.dgtk("render", self.write("scene.json", json.dumps(scene)), "-o", self.path("dataset"), "--quiet", *OPTIONS)
         self.manifest = load_json(self.path("dataset", "manifest.json"))
+        self.runs = self.enterContext(ManyRuns())
         self.copies = queue.Queue()
         for number in range(2):
             shutil.copytree(self.path("dataset"), self.path(f"copy{number}"))
@@ -80,8 +82,8 @@ class Words(Case):
     def sweep(self, changes, *command):
         """(change, exit status, standard error) of a command."""
         def run(folder):
-            done = subprocess.run([DGTK, *(word.replace("{}", folder) for word in command)], capture_output=True, text=True)
-            return done.returncode, done.stderr
+            done = self.runs.run(*(word.replace("{}", folder) for word in command))
+            return done.returncode, done.stderr.decode()
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             return [(change, *found) for change, found in zip(changes, pool.map(lambda change: self.with_change(change, run), changes))]
@@ -100,6 +102,13 @@ class Words(Case):
         unseen = [self.place(change) for change, status, _ in results if status == 0]
         self.assertEqual([place for place in unseen if not any(re.fullmatch(free, place) for free in FREE)], [])
         self.assertEqual([free for free in FREE if not any(re.fullmatch(free, place) for place in unseen)], [], "is seen")
+
+    def test_runs_are_those_of_a_program(self):
+        """Here the program is started once for all runs: none sees another, and all ends as it does by itself."""
+        words = ["verify", self.path("dataset"), "--check", CHECKS]
+        for arguments in (words, ["verify", self.path("missing")], ["--version"], ["no such command"], words):
+            done, alone = self.runs.run(*arguments), subprocess.run([DGTK, *arguments], capture_output=True)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (alone.returncode, alone.stdout, alone.stderr))
 
     def test_no_reader_fails_otherwise(self):
         changes = [change for change in self.changes() if not change[0].endswith(".ply")][::3]
@@ -120,11 +129,11 @@ class Words(Case):
         for what, changed in json_changes(sound):
             self.write(manifest, json.dumps(changed))
             for command in (("verify", "{}", "--check", "hashes"), *READERS[:3]):
-                done = subprocess.run([DGTK, *(word.replace("{}", folder) for word in command)], capture_output=True, text=True)
+                done = self.runs.run(*(word.replace("{}", folder) for word in command))
                 if done.returncode == 0 and command[0] == "verify":
                     unseen.append(what)
                 elif done.returncode not in (0, 1, 2, 3):
-                    wrong.append(f"{command[0]} {what}: exit {done.returncode} {done.stderr}")
+                    wrong.append(f"{command[0]} {what}: exit {done.returncode} {done.stderr.decode()}")
         self.assertEqual(wrong, [])
         self.assertEqual([what for what in unseen if not re.fullmatch("version|-?request/.*|(shorter |longer )?left_out(/0)?", what)], [])
         self.write(manifest, json.dumps(sound))
@@ -135,8 +144,7 @@ class Words(Case):
         dataset, verified = self.path("dataset"), self.path("verification.json")
         for what, changed in json_changes(json.loads(self.dgtk("verify", dataset, "--json", "--check", "cameras,metadata").stdout)):
             self.write(verified, json.dumps(changed))
-            done = subprocess.run([DGTK, "report", dataset, "-o", self.path("report.html"), "--pictures", "1", "--read", "1", "--verification", verified],
-                                  capture_output=True, text=True)
+            done = self.runs.run("report", dataset, "-o", self.path("report.html"), "--pictures", "1", "--read", "1", "--verification", verified)
             self.assertIn(done.returncode, (0, 3), f"{what}: {done.stderr}")
 
 

@@ -16,6 +16,7 @@ import datasets
 import pictures
 from datasets import load_json, main, sealed
 from harness import DGTK
+from many_runs import ManyRuns
 from planted_exports import ALONE, PLANTS
 from word_changes import changes_of, json_changes
 
@@ -45,10 +46,11 @@ class Words(datasets.ExportCase):
         super().setUp()
         scene = datasets.street(self.path("scene"), width=24, height=18)
         self.dataset = self.render(scene, "boxes,amodal,objects,classes", "--for", ",".join(PLANTS))
+        self.runs = self.enterContext(ManyRuns())
 
     def judge(self, folder):
         """(status, rows with an error, all rows)."""
-        done = subprocess.run([DGTK, "verify", self.dataset, "--export", folder, "--json", "--threads", "1"], capture_output=True)
+        done = self.runs.run("verify", self.dataset, "--export", folder, "--json", "--threads", "1")
         self.assertRegex(done.stderr, b"^(dgtk: .*\n)?$")  # nothing of a library's
         rows = {row["layer"]: row for row in json.loads(done.stdout)["residuals"]} if done.returncode in (0, 1) else {}
         return done.returncode, {layer: row for layer, row in rows.items() if row["breach"]}, rows

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""dgtk run some thousand times: started and linked once, and forked before its main() for each run (Testing/Support/dgtkManyRuns.cxx)."""
+import os
+import queue
+import struct
+import subprocess
+
+from harness import DGTK
+
+BUILD = os.environ["DGTK_BUILD"]
+PRELOADED = [os.path.join(BUILD, "lib", name) for name in ("libdgtk_many_runs.so", "libdgtkVerification.so")]  # the second is on demand
+
+
+class ManyRuns:
+    """As many at a time as there are threads that call run(); a context manager, after which no process is left."""
+
+    def __init__(self):
+        self.idle, self.all = queue.SimpleQueue(), []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for server in self.all:
+            server.stdin.close()
+            server.stdout.close()
+            server.wait()
+
+    def _server(self):
+        try:
+            return self.idle.get_nowait()
+        except queue.Empty:
+            server = subprocess.Popen([DGTK], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                      env={**os.environ, "LD_PRELOAD": ":".join(PRELOADED), "LD_BIND_NOW": "1"})
+            self.all.append(server)
+            return server
+
+    def run(self, *arguments):
+        """The finished process, as of subprocess.run(..., capture_output=True)."""
+        if os.environ.get("DGTK_TEST_SANITIZED"):  # sanitizers start before all others
+            return subprocess.run([DGTK, *arguments], stdin=subprocess.DEVNULL, capture_output=True)
+        server = self._server()
+        words = b"".join(os.fsencode(word) + b"\0" for word in arguments)
+        server.stdin.write(struct.pack("I", len(words)) + words)
+        server.stdin.flush()
+        status, *sizes = struct.unpack("iii", server.stdout.read(12))
+        texts = [server.stdout.read(size) for size in sizes]
+        self.idle.put(server)
+        return subprocess.CompletedProcess([DGTK, *arguments], status, *texts)
