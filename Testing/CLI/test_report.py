@@ -11,6 +11,7 @@ import numpy as np
 
 from browser import Browser, chromium
 from harness import SCENES, Case, load_json, main
+from pictures import read_png
 
 HOSTILE = "</script><img src=x onerror=\"document.title='bad'\">&'\""
 
@@ -78,12 +79,18 @@ class Report(Case):
         self.dgtk("render", os.path.join(SCENES, scene), "-o", folder, "--quiet", "--layers", layers, "--size", "96x72", *more)
         return folder
 
+    def picture_of(self, page, layer, shown):
+        """The pixels that are drawn, (height, width, 3)."""
+        with open(page, encoding="utf-8") as file:
+            packed = re.search(rf'id="d{layer}-{shown}">[^|]*\|([^|]*)', file.read()).group(1)
+        return read_png(self.write("shown.png", base64.b64decode(packed))).astype(int)
+
     def report(self, folder, *more, name="page.html"):
         self.dgtk("report", folder, "-o", self.path(name), "--quiet", *more)
         return self.path(name)
 
     def test_numbers(self):
-        folder = self.render()
+        folder = self.render(layers="color,depth,objects,classes,flow_forward,boxes,normal")
         page = self.report(folder)
         model = model_of(page)
         layers = {layer["label"]: layer for layer in model["layers"]}
@@ -105,6 +112,22 @@ class Report(Case):
         found = layers["flow_forward"]["numbers"]
         self.assertEqual(found["values"], int(np.isfinite(length).sum()))
         self.assertAlmostEqual(found["most"], np.nanmax(length), delta=1e-6)
+
+        # legends: one range for all pictures, without the outermost hundredths; the ramp has the pictures' own colours
+        self.assertEqual({name: layer["legend"]["kind"] for name, layer in layers.items()},
+                         {"color": "picture", "depth": "ramp", "objects": "ids", "classes": "ids", "flow_forward": "wheel", "flow_forward_class": "ids", "normal": "axes"})
+        longest = np.sort(length[np.isfinite(length)].ravel())
+        self.assertAlmostEqual(layers["flow_forward"]["legend"]["high"], longest[-1 - longest.size // 100], delta=1e-6)
+        ramp, ordered = layers["depth"]["legend"], np.sort(finite).astype(np.float32)
+        self.assertTrue(ramp["log"])
+        np.testing.assert_allclose((ramp["low"], ramp["high"]), (ordered[finite.size // 100], ordered[-1 - finite.size // 100]), rtol=1e-6)
+        stops = np.array([[int(color[i:i + 2], 16) for i in (1, 3, 5)] for color in ramp["colors"]])
+        for shown in range(len(model["pictures"])):
+            _, values = block_of(page, list(layers).index("depth"), shown)
+            places = 24 * np.log(np.clip(values[..., 0], ramp["low"], ramp["high"]) / ramp["low"]) / np.log(ramp["high"] / ramp["low"])
+            seen = np.isfinite(values[..., 0])
+            want = np.stack([np.interp(places[seen], np.arange(25), stops[:, c]) for c in range(3)], axis=-1)
+            self.assertLess(np.abs(want - self.picture_of(page, list(layers).index("depth"), shown)[seen]).max(), 8)
 
         ids = {path: ids_of(os.path.join(folder, path)) for path in paths if path.endswith(".ppm")}
         rows = {row["id"]: row for row in model["seen"]["objects"]}

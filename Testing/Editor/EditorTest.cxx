@@ -12,6 +12,7 @@
 #include <QCheckBox>
 #include <QDialog>
 #include <QElapsedTimer>
+#include <QFileDialog>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
@@ -67,6 +68,30 @@ void activate(QWidget& window)
     QTest::qWait(step);
   }
   QVERIFY2(window.isActiveWindow(), qPrintable("no focus: " + window.objectName()));
+}
+
+void browseFor(QPushButton* button, const QLineEdit* line, const QString& folder)
+{
+  const QString before = line->text();
+  const auto chosen = [button](const QString& name)
+  {
+    QString begin;
+    answer<QFileDialog>({},
+      [&](QFileDialog& dialog)
+      {
+        begin = dialog.directory().absolutePath();
+        dialog.findChild<QLineEdit*>("fileNameEdit")->setText(name);
+        QMetaObject::invokeMethod(&dialog, name.isEmpty() ? "reject" : "accept");
+      });
+    QTest::mouseClick(button, Qt::LeftButton);
+    return begin;
+  };
+  QVERIFY(QDir().mkpath(folder));
+  chosen({});
+  QCOMPARE(line->text(), before);
+  chosen(folder);
+  QCOMPARE(line->text(), folder);
+  QCOMPARE(chosen({}), folder);
 }
 
 void untilQuiet()

@@ -21,6 +21,7 @@ private slots:
   void theViewsLookAsTheyWereLeft();
   void unsavedWorkSurvivesACrash();
   void aDamagedCopyIsToldOfItsScene();
+  void whatWasKeptIsDiscardedOrAskedAgain();
 };
 
 #endif

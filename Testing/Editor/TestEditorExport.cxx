@@ -75,6 +75,32 @@ void TestEditorExport::aRenderForAnExportHasItsLayers()
   QCOMPARE(words.value(words.indexOf("--for") + 1), QString("coco"));
 }
 
+void TestEditorExport::foldersAreBrowsed()
+{
+  const QDialog* const shown = this->dialog(this->path("coco"));
+  int browsed = 0;
+  for (auto* const button : shown->findChildren<QPushButton*>())
+  {
+    if (button->text() == "Browse ...")
+    {
+      const char* const line = browsed++ == 0 ? "dataset" : "folder";
+      browseFor(button, shown->findChild<QLineEdit*>(line), this->path(line));
+    }
+  }
+  QCOMPARE(browsed, 2);
+  this->action("render")->trigger();
+  const auto* const render = this->Window->findChild<QDialog*>("renderDialog");
+  for (auto* const button : render->findChildren<QPushButton*>())
+  {
+    if (button->text() == "&Browse ...")
+    {
+      browseFor(button, render->findChild<QLineEdit*>("folder"), this->path("rendered"));
+      ++browsed;
+    }
+  }
+  QCOMPARE(browsed, 3);
+}
+
 void TestEditorExport::pictures()
 {
   const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));

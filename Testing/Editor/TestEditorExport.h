@@ -16,6 +16,7 @@ private slots:
   void anExportHasTheBytesOfTheCommandLine();
   void refusalsAreInTheWindowsWords();
   void aRenderForAnExportHasItsLayers();
+  void foldersAreBrowsed();
   void pictures();
 
 private:

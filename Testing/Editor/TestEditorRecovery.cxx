@@ -42,6 +42,44 @@ void TestEditor::aDamagedCopyIsToldOfItsScene()
   QVERIFY(QFile::remove(folder.filePath("left.json")) && QFile::remove(folder.filePath("left.json.lock")));
 }
 
+void TestEditor::whatWasKeptIsDiscardedOrAskedAgain()
+{
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");
+  QVERIFY(folder.mkpath("."));
+  for (const char* const name : { "left.json", "other.json" })
+  {
+    QFile copy(folder.filePath(name));
+    QVERIFY(copy.open(QIODevice::WriteOnly));
+    copy.write("{ \"objects\": [] }");
+  }
+  const auto offered = [this](QMessageBox::StandardButton first, QMessageBox::StandardButton second)
+  {
+    int asked = 0;
+    answer<QMessageBox>("recoverBox",
+      [&](QMessageBox& box)
+      {
+        ++asked;
+        answer<QMessageBox>("recoverBox",
+          [&](QMessageBox& next)
+          {
+            ++asked;
+            next.button(second)->click();
+          });
+        box.button(first)->click();
+      });
+    this->Window->offerRecovery();
+    return asked;
+  };
+  QCOMPARE(offered(QMessageBox::Cancel, QMessageBox::Cancel), 2);
+  QCOMPARE(folder.entryList({ "*.json" }, QDir::Files).size(), 2);
+  QCOMPARE(offered(QMessageBox::Discard, QMessageBox::Cancel), 2);
+  QCOMPARE(folder.entryList({ "*.json" }, QDir::Files).size(), 1);
+  answer<QMessageBox>("recoverBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
+  this->Window->offerRecovery();
+  QVERIFY(QDir(folder).isEmpty());
+  QVERIFY(!this->Window->document().modified());
+}
+
 void TestEditor::unsavedWorkSurvivesACrash()
 {
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");

@@ -249,7 +249,14 @@ void TestEditorSamples::manyAreWritten()
   this->waitFor("Sample 0: ");
   typeInto(dialog->findChild<QSpinBox*>("first"), "3");
   typeInto(dialog->findChild<QSpinBox*>("last"), "5");
-  QCOMPARE(dialog->findChild<QLineEdit*>("folder")->text(), this->path("balls_samples"));
+  auto* const folder = dialog->findChild<QLineEdit*>("folder");
+  QCOMPARE(folder->text(), this->path("balls_samples"));
+  const auto buttons = dialog->findChildren<QPushButton*>();
+  const auto browse = std::find_if(
+    buttons.begin(), buttons.end(), [](const QPushButton* button) { return button->text() == "Browse ..."; });
+  QVERIFY(browse != buttons.end());
+  browseFor(*browse, folder, this->path("others"));
+  typeInto(folder, this->path("balls_samples"));
   auto* const write = dialog->findChild<QPushButton*>("write");
   this->click("write");
   QTRY_VERIFY(write->isEnabled());

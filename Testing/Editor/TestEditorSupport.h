@@ -33,6 +33,9 @@
 
 #include <sys/types.h>
 
+class QLineEdit;
+class QPushButton;
+
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes() __attribute__((weak)); // AddressSanitizer's heap
 
 // A wait ends when what it waits for is there. That it never comes is said late: a machine may be slow, and busy.
@@ -103,6 +106,9 @@ inline void expectRefusal(QString& message)
       box.accept();
     });
 }
+
+/// The button opens a dialog for folders that begins in the line's; cancelled, it changes nothing.
+void browseFor(QPushButton* button, const QLineEdit* line, const QString& folder);
 
 /// Whatever opens is closed again; the unsaved question is answered with Discard.
 inline void closeWhatIsOpen()
