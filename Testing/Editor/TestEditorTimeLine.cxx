@@ -17,6 +17,7 @@
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QScrollBar>
+#include <QSignalSpy>
 #include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
@@ -314,6 +315,20 @@ void TestEditorTimeLine::playsAtItsRate()
   auto* loop = this->Window->findChild<QToolButton*>("loop");
   auto* rate = this->Window->findChild<QDoubleSpinBox*>("frameRate");
   QCOMPARE(rate->value(), 25.0);
+  const QSignalSpy frames(frame, QOverload<int>::of(&QSpinBox::valueChanged));
+  const QSignalSpy rates(rate, QOverload<double>::of(&QDoubleSpinBox::valueChanged));
+  frame->selectAll();
+  QTest::keyClicks(frame, "12");
+  rate->selectAll();
+  QTest::keyClicks(rate, "30");
+  QVERIFY2(rates.isEmpty() && frames.count() <= 1, "not at each digit");
+  QTest::keyClick(rate, Qt::Key_Return);
+  QCOMPARE(rates.count(), 1);
+  QTest::keyClick(frame, Qt::Key_Return);
+  QCOMPARE(frames.count(), 1);
+  QCOMPARE(frame->value(), 12);
+  frame->setValue(0);
+  this->action("undo")->trigger();
   rate->setValue(20);
   QCOMPARE(this->Window->document().scene().fps, 20.0);
   loop->setChecked(false);
