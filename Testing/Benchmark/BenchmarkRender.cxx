@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole-work timings as ratios against references of the same run; see Documentation/DeveloperGuide/performance.md.
 //
-//   BenchmarkRender [--triangles N] [--size WxH] [--frames N] [--threads N] [--rounds N]
+//   BenchmarkRender [--triangles N] [--size WxH] [--frames N] [--threads N] [--rounds N] [--rows LETTERS]
 //
 // Each row is a process of its own (its peak memory is its own, and no two OpenGL contexts meet). Times are per frame,
 // in milliseconds, without loading: (time of all frames - time of the first) / (frames - 1). All rows are run once a
@@ -18,6 +18,7 @@
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -39,6 +40,7 @@ struct Settings
   int height = 480;
   int threads = 2;
   int rounds = 3;
+  std::string rows; ///< their letters, such as ADE; empty: all
   std::string folder;
   std::string scenePath;
   std::string shadowPath; ///< the same scene with shadows
@@ -113,12 +115,14 @@ double product(const Settings& s, const std::vector<std::string>& layers, const 
   request.layers = layers;
   request.options["visibility"] = engine;
   request.options["renderer"] = renderer;
-  request.replace = true;
   request.options["threads"] = std::to_string(s.threads);
+  // A folder for each, which stay to the end: file systems are slow where files were removed a minute ago.
+  int runs = 0;
   const auto run = [&](int last)
   {
-    request.folder = s.folder + "/out" + std::to_string(last);
+    request.folder = s.folder + "/out" + std::to_string(::getpid()) + '-' + std::to_string(runs++);
     request.frames = FrameRange{ 0, last, 1 };
+    ::sync(); // what was written before is not this run's work
     const Clock::time_point start = Clock::now();
     generate(request);
     return milliseconds(start);
@@ -206,6 +210,10 @@ Settings parse(int argc, char** argv)
     {
       settings.rounds = std::stoi(value);
     }
+    else if (key == "--rows")
+    {
+      settings.rows = value;
+    }
     else if (key == "--size")
     {
       settings.width = std::stoi(value);
@@ -230,22 +238,32 @@ int main(int argc, char** argv)
   std::printf("%d triangles in %d objects, %d x %d, %d frames, %d threads, %d rounds\n", settings.scene.triangles,
     settings.scene.objects, settings.width, settings.height, settings.scene.frames, settings.threads, settings.rounds);
   std::fflush(stdout);
+  const auto wanted = [&](std::size_t row)
+  { return settings.rows.empty() || settings.rows.find(rows()[row].name[0]) != std::string::npos; };
   std::vector<std::vector<double>> times(rows().size());
   std::vector<double> memory(rows().size(), 0.0);
   for (int round = 0; round < settings.rounds; ++round)
   {
     for (std::size_t i = 0; i < rows().size(); ++i)
     {
+      if (!wanted(i))
+      {
+        continue;
+      }
       const bench::Measured measured = bench::inChild(rows()[i].name, [&] { return rows()[i].run(settings); });
       times[i].push_back(measured.milliseconds);
       memory[i] = std::max(memory[i], measured.mebibytes);
     }
   }
-  std::vector<double> median;
+  std::vector<double> median(rows().size(), std::nan("")); // so are the ratios of what was not measured
   for (std::size_t i = 0; i < rows().size(); ++i)
   {
+    if (!wanted(i))
+    {
+      continue;
+    }
     std::sort(times[i].begin(), times[i].end());
-    median.push_back(times[i][times[i].size() / 2]);
+    median[i] = times[i][times[i].size() / 2];
     std::printf("  %-62s %8.1f ms (%.1f to %.1f) %7.0f MiB\n", rows()[i].name, median[i], times[i].front(),
       times[i].back(), memory[i]);
   }

@@ -9,8 +9,8 @@ namespace dgtk
 {
 
 FrameOutput::FrameOutput(const std::string& folder, const JobContext& context, int bands)
-  : Pool(context.pool)
-  , Missing(bands)
+  : Missing(bands)
+  , Whole(context.pool)
 {
   for (PlannedPass& planned : passesOf(context.plan, context.queries.stage(), context.job))
   {
@@ -19,7 +19,7 @@ FrameOutput::FrameOutput(const std::string& folder, const JobContext& context, i
     lane.pass = planned.layers.front().layer.makePass(context, planned.layers);
     lane.sink = std::make_unique<FileSink>(folder, context, planned.outputs());
     this->Lanes.push_back(std::move(lane));
-    this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
+    this->Queues.push_back(std::make_unique<SerialQueue>(context.pool));
   }
   if (bands == 0)
   {
@@ -27,18 +27,20 @@ FrameOutput::FrameOutput(const std::string& folder, const JobContext& context, i
   }
 }
 
+/// Lanes come after the band is whole: those that found it in the making would wait for it, and not work.
 void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
 {
-  for (std::size_t i = 0; i < this->Lanes.size(); ++i)
-  {
-    Lane* lane = &this->Lanes[i];
-    this->Queues[i]->submit(
-      [lane, band]
-      {
-        const WorkTime derive(WorkStage::Derive);
-        lane->pass->band(band->whole(lane->readsColor), *lane->sink);
-      });
-  }
+  this->Whole.submit(
+    [this, band]
+    {
+      band->whole(false);
+      this->toLanes(
+        [band](Lane& lane)
+        {
+          const WorkTime derive(WorkStage::Derive);
+          lane.pass->band(band->whole(lane.readsColor), *lane.sink);
+        });
+    });
   if (--this->Missing == 0)
   {
     this->complete();
@@ -48,21 +50,29 @@ void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
 /// The last encoding (PNG compresses at the end) is work for the pool as well.
 void FrameOutput::complete()
 {
+  this->Whole.submit(
+    [this]
+    {
+      this->toLanes(
+        [](Lane& lane)
+        {
+          lane.pass->finish(*lane.sink);
+          lane.finished = lane.sink->finish();
+        });
+    });
+}
+
+void FrameOutput::toLanes(const std::function<void(Lane&)>& job)
+{
   for (std::size_t i = 0; i < this->Lanes.size(); ++i)
   {
-    Lane* lane = &this->Lanes[i];
-    this->Queues[i]->submit(
-      [lane]
-      {
-        lane->pass->finish(*lane->sink);
-        lane->finished = lane->sink->finish();
-      });
+    this->Queues[i]->submit([job, lane = &this->Lanes[i]] { job(*lane); });
   }
 }
 
 bool FrameOutput::isDone() const
 {
-  return this->Missing == 0 &&
+  return this->Missing == 0 && this->Whole.isDone() && // and what follows from it is in the lanes
          std::all_of(this->Queues.begin(), this->Queues.end(), [](const auto& queue) { return queue->isDone(); });
 }
 
@@ -70,16 +80,21 @@ void FrameOutput::wait()
 {
   // For all of them, also after a failure: what they write to may end with the caller.
   std::exception_ptr failure;
-  for (const auto& queue : this->Queues)
+  const auto waitFor = [&failure](SerialQueue& queue)
   {
     try
     {
-      queue->wait();
+      queue.wait();
     }
     catch (...)
     {
       failure = failure ? failure : std::current_exception();
     }
+  };
+  waitFor(this->Whole); // it fills the others
+  for (const auto& queue : this->Queues)
+  {
+    waitFor(*queue);
   }
   if (failure)
   {

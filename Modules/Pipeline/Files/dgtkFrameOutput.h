@@ -7,6 +7,7 @@
 #include "dgtkLayers.h"
 #include "dgtkSerialQueue.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,11 +40,12 @@ private:
     std::vector<FinishedFile> finished;
   };
   void complete();
+  void toLanes(const std::function<void(Lane&)>& job);
 
-  ThreadPool& Pool;
   int Missing; ///< bands
   std::vector<Lane> Lanes;
-  std::vector<std::unique_ptr<SerialQueue>> Queues; // one a lane; destroyed first: they wait for their jobs
+  std::vector<std::unique_ptr<SerialQueue>> Queues; // one a lane; destroyed before them: they wait for their jobs
+  SerialQueue Whole;                                // makes bands whole, and gives them to the lanes
 };
 
 } // namespace dgtk
