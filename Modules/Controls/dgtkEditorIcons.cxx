@@ -359,7 +359,7 @@ QPixmap drawn(const Draw& draw, int pixels, QIcon::Mode mode)
 }
 } // namespace
 
-QIcon editorIcon(const QString& name)
+const std::map<QString, IconDrawing>& editorIcons()
 {
   static const std::map<QString, Draw> icons = []
   {
@@ -371,7 +371,13 @@ QIcon editorIcon(const QString& name)
     all.merge(viewerIcons());
     return all;
   }();
+  return icons;
+}
+
+QIcon editorIcon(const QString& name)
+{
   QIcon icon;
+  const std::map<QString, IconDrawing>& icons = editorIcons();
   const auto at = icons.find(name);
   for (const int pixels : { 16, 20, 24, 32, 48, 64 })
   {

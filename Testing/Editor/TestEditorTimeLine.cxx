@@ -81,8 +81,10 @@ void TestEditorTimeLine::choose(const QPoint& where, const char* submenu, const 
     {
       QWidget* const popup = QApplication::activePopupWidget();
       QMenu* const menu = *submenu == 0 ? qobject_cast<QMenu*>(popup) : popup->findChild<QMenu*>(submenu);
+      this->Checked.clear();
       for (QAction* action : menu->actions())
       {
+        this->Checked += action->isChecked() ? action->text().remove('&') + '.' : QString();
         if (action->text().remove('&') == text && action->isEnabled() && menu->isEnabled())
         {
           action->trigger();
@@ -182,7 +184,9 @@ void TestEditorTimeLine::aKeyHasAnInterpolation()
   QCOMPARE(document.scene().objects[0].position.at(6).x(), 5.0);
   this->choose(at(2, 0), "interpolation", "Smooth");
   QCOMPARE(dgtk::interpolationOf(document.scene(), crate), Interpolation::Smooth);
-  for (int step = 0; step < 4; ++step)
+  this->choose(at(2, 0), "interpolation", "Steps");
+  QCOMPARE(this->Checked, QString("Smooth."));
+  for (int step = 0; step < 5; ++step)
   {
     this->action("undo")->trigger();
   }

@@ -32,6 +32,7 @@ private:
   void key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) const;
   /// Opens the context menu and triggers an entry by its text, in the submenu of that object name unless it is empty.
   void choose(const QPoint& where, const char* submenu, const QString& text) const;
+  mutable QString Checked; ///< of the menu that choose() saw last, each with a point
   /// A crate and a tree with key frames at 0 and 10, 10 units apart.
   void openTwo();
 };

@@ -23,15 +23,10 @@ using namespace dgtk;
 
 QStringList allNames()
 {
-  QStringList names{ "new", "open", "save", "import", "exit", "undo", "redo", "cut", "copy", "paste", "duplicate",
-    "delete", "move", "rotate", "scale", "camera", "light", "render", "frameAll", "frameSelected", "wireframe",
-    "shaded", "textured", "grid" };
-  for (const auto& row : viewerIcons())
+  QStringList names;
+  for (const auto& row : editorIcons())
   {
-    if (!names.contains(row.first))
-    {
-      names.append(row.first);
-    }
+    names.append(row.first);
   }
   return names;
 }
