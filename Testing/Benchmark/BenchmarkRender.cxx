@@ -116,13 +116,12 @@ double product(const Settings& s, const std::vector<std::string>& layers, const 
   request.options["visibility"] = engine;
   request.options["renderer"] = renderer;
   request.options["threads"] = std::to_string(s.threads);
-  // A folder for each, which stay to the end: file systems are slow where files were removed a minute ago.
-  int runs = 0;
   const auto run = [&](int last)
   {
-    request.folder = s.folder + "/out" + std::to_string(::getpid()) + '-' + std::to_string(runs++);
+    request.folder = s.folder + "/out" + std::to_string(last);
     request.frames = FrameRange{ 0, last, 1 };
-    ::sync(); // what was written before is not this run's work
+    std::filesystem::remove_all(request.folder); // an earlier run's files, whose removal is not this one's work
+    ::sync();
     const Clock::time_point start = Clock::now();
     generate(request);
     return milliseconds(start);
