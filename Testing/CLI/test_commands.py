@@ -257,7 +257,7 @@ class Documents(Case):
         found = json.loads(self.dgtk("info", self.scene, "--json", "--surfaces").stdout)
         self.assertEqual(self.rounded(found), expected)
         for words in ([], ["--json"]):
-            self.assertNotRegex(self.dgtk("info", self.scene, *words).stdout, r"-0(\.0)?[^.0-9]", "zero has no sign")
+            self.assertNotRegex(self.dgtk("info", self.scene, *words).stdout, r"(?<![a-z])-0(\.0)?[^.0-9]", "zero has no sign")
         for row in found["cameras"]:
             del row["surfaces"]
         self.assertEqual(json.loads(self.dgtk("info", self.scene, "--json").stdout), found)
