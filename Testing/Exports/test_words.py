@@ -35,7 +35,7 @@ FREE = {
     "coco-panoptic": [r"panoptic_train.json -?(info|licenses).*", r"panoptic_train.json categories/\*/color/."],
     "colmap-txt": [".*txt comment", "images.txt 1"], "flyingthings": ["camera_data.txt twice line 8"],
     "gltf": [r"scene.gltf -?asset/generator", r"scene.gltf -?animations/\*/name", r"scene.gltf -nodes/\*/(rotation|scale)"],  # the usual rotation and scale
-    "imagefolder": ["README.md text"], "imagefolder-jpg": ["README.md text"], "webdataset": ["README.md text"],
+    "imagefolder": ["README.md text"], "webdataset": ["README.md text"],
     "nerf-synthetic": [r"transforms_train.json -?frames/\*/rotation"], "tum": [".*txt comment"], "tum-icl": [".*txt comment"],
     "voc": ["cam_L_000000.xml DGTk"],
 }
@@ -110,6 +110,8 @@ class Words(datasets.ExportCase):
         seen, unseen, wrong = set(), [], [] if status == 0 else ["the sound export"]
         kinds = collections.OrderedDict((re.sub(r"\d+", "#", row["path"]).replace("cam_R", "cam_L"), row["path"]) for row in reversed(record["files"]))
         for name in kinds.values():
+            if form == "imagefolder-jpg" and not name.endswith(".jpg"):
+                continue  # the words are those of imagefolder
             with open(os.path.join(folder, name), "rb") as file:
                 data = file.read()
             if name.endswith(PIXELS + RECORDS):
