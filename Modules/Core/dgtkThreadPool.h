@@ -12,7 +12,8 @@ namespace dgtk
 {
 
 /// A fixed number of threads, the calling one counted, and one queue, first in, first out. With one thread everything
-/// runs in the caller. oneTBB promises neither this order, by which bands leave memory early, nor which failure is told.
+/// runs in the caller. oneTBB promises neither this order, by which bands leave memory early, nor which failure is
+/// told.
 class DGTKCORE_EXPORT ThreadPool
 {
 public:

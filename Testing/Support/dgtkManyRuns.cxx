@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Preloaded into a program: it is started and linked once, and its main() runs in a fork of it for each request on standard
-// input, which is what a sweep of some thousand short runs spends most of its time on otherwise (many_runs.py).
-// Request: the size of what follows, and arguments, each with a 0 behind it. Answer: the exit status (of a signal, its
-// number below 0), the sizes of what was written to standard output and error, and both. Sizes and status have 32 bits.
+// Preloaded into a program: it is started and linked once, and its main() runs in a fork of it for each request on
+// standard input, which is what a sweep of some thousand short runs spends most of its time on otherwise
+// (many_runs.py). Request: the size of what follows, and arguments, each with a 0 behind it. Answer: the exit status
+// (of a signal, its number below 0), the sizes of what was written to standard output and error, and both. Sizes and
+// status have 32 bits.
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
@@ -87,7 +88,9 @@ int serve(int, char** arguments, char** environment)
     {
     }
     const std::string texts[] = { contents(output), contents(errors) };
-    const std::int32_t head[] = { child < 0 ? -1000 : WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status),
+    const std::int32_t head[] = { child < 0             ? -1000
+                                  : WIFSIGNALED(status) ? -WTERMSIG(status)
+                                                        : WEXITSTATUS(status),
       static_cast<std::int32_t>(texts[0].size()), static_cast<std::int32_t>(texts[1].size()) };
     const std::string answer = std::string(reinterpret_cast<const char*>(head), sizeof head) + texts[0] + texts[1];
     if (!transferAll(write, STDOUT_FILENO, answer.data(), answer.size()))
@@ -99,8 +102,8 @@ int serve(int, char** arguments, char** environment)
 }
 } // namespace
 
-extern "C" int __libc_start_main(Main program, int count, char** arguments, void (*before)(), void (*after)(),
-  void (*loader)(), void* stack)
+extern "C" int __libc_start_main(
+  Main program, int count, char** arguments, void (*before)(), void (*after)(), void (*loader)(), void* stack)
 {
   mainOfProgram = program;
   const auto start = reinterpret_cast<decltype(&__libc_start_main)>(dlsym(RTLD_NEXT, "__libc_start_main"));

@@ -60,8 +60,8 @@ std::string tracksText(const std::vector<TrackPoint>& points)
 std::vector<TrackPoint> readTrackPoints(const std::string& path)
 {
   std::vector<TrackPoint> points;
-  const JsonDocument document =
-    readJsonPieces(path, { { "points", [&](const JsonPiece& piece) { points.push_back(trackPointOf(piece.value)); } } });
+  const JsonDocument document = readJsonPieces(
+    path, { { "points", [&](const JsonPiece& piece) { points.push_back(trackPointOf(piece.value)); } } });
   JsonCursor(document)["points"].listSize();
   return points;
 }

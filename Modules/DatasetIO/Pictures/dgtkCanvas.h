@@ -14,8 +14,8 @@
 namespace dgtk
 {
 
-/// A small 8-bit RGB picture to draw on. Letters and thumbnails are not OpenImageIO's: loading it takes 0.15 s, more than
-/// most sheets, and FreeType's letters differ between its versions, while a sheet's hash stands in the manifest.
+/// A small 8-bit RGB picture to draw on. Letters and thumbnails are not OpenImageIO's: loading it takes 0.15 s, more
+/// than most sheets, and FreeType's letters differ between its versions, while a sheet's hash stands in the manifest.
 class Canvas
 {
 public:

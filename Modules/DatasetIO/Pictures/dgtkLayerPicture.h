@@ -22,8 +22,8 @@ struct LayerPicture
 };
 
 /// The colours of contact sheets: depth from near (bright) to far, ids in distinct colours, vectors as red, green and
-/// blue of their range in these rows, which are a whole picture; dark gray where there is nothing. Only flow differs: it
-/// has the colour wheel.
+/// blue of their range in these rows, which are a whole picture; dark gray where there is nothing. Only flow differs:
+/// it has the colour wheel.
 DGTKDATASETIO_EXPORT LayerPicture paintLayer(const Rows& rows, const LayerSpec& spec);
 
 } // namespace dgtk

@@ -17,10 +17,10 @@ struct ImportedScene : import::Scene
   std::vector<ModelDependency> dependencies;
 };
 
-/// Reads a model in a copy of the process dgtk-import ($DGTK_IMPORT can name it), with limits of memory (512 MiB and 10 bytes a
-/// byte read) and of processor time (60 s). That process opens nothing: it is handed the model, and the files that the
-/// model names, as far as they lie in the model's folder or below it. Throws InputError with the importer's complaint,
-/// also when the importer crashed or ran into a limit, or when the model names a file elsewhere.
+/// Reads a model in a copy of the process dgtk-import ($DGTK_IMPORT can name it), with limits of memory (512 MiB and 10
+/// bytes a byte read) and of processor time (60 s). That process opens nothing: it is handed the model, and the files
+/// that the model names, as far as they lie in the model's folder or below it. Throws InputError with the importer's
+/// complaint, also when the importer crashed or ran into a limit, or when the model names a file elsewhere.
 ImportedScene importModel(const std::string& path, const std::string& format);
 
 } // namespace dgtk

@@ -122,10 +122,7 @@ public:
   void addViews(const SceneState& state, double imageHeight, bool zeroToOne, std::vector<ShadowView>& views) const;
 
 private:
-  static bool oneCone(const LightState& light)
-  {
-    return traitsOf(light.kind).cone && light.coneAngle <= largestCone;
-  }
+  static bool oneCone(const LightState& light) { return traitsOf(light.kind).cone && light.coneAngle <= largestCone; }
   /// A rim of a texel or two, so that the comparisons at the cone's border find neighbours.
   static double halfAngle(const LightState& light)
   {

@@ -19,8 +19,8 @@
 namespace dgtk
 {
 
-/// The camera of an entry of cameras.json. Throws InputError for a model that is not known, UsageError for parameters that
-/// no camera of the model has.
+/// The camera of an entry of cameras.json. Throws InputError for a model that is not known, UsageError for parameters
+/// that no camera of the model has.
 DGTKVIEWER_EXPORT View viewOf(const CameraRecord& record);
 
 /// Whether world points follow from the values of a layer: depth, depth_noisy, distance, inversedepth, position.
