@@ -8,7 +8,8 @@ import subprocess
 from harness import DGTK
 
 BUILD = os.environ["DGTK_BUILD"]
-PRELOADED = [os.path.join(BUILD, "lib", name) for name in ("libdgtk_many_runs.so", "libdgtkVerification.so")]  # the second is on demand
+SERVER = os.path.join(BUILD, "lib", "libdgtk_many_runs.so")
+OTHERS = os.environ.get("LD_PRELOAD", os.path.join(BUILD, "lib", "libdgtkVerification.so"))  # which is on demand
 
 
 class ManyRuns:
@@ -31,7 +32,7 @@ class ManyRuns:
             return self.idle.get_nowait()
         except queue.Empty:
             server = subprocess.Popen([DGTK], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                      env={**os.environ, "LD_PRELOAD": ":".join(PRELOADED), "LD_BIND_NOW": "1"})
+                                      env={**os.environ, "LD_PRELOAD": f"{SERVER}:{OTHERS}", "LD_BIND_NOW": "1"})
             self.all.append(server)
             return server
 
