@@ -145,6 +145,47 @@ def glyph_mapper():
 
 
 @scene
+def two_shapes():
+    """Glyphs of two shapes, of which one has coordinates of the texture: VTK draws the other without it."""
+    points = vtk.vtkPolyData()
+    points.SetPoints(vtk.vtkPoints())
+    for i in range(12):
+        points.GetPoints().InsertNextPoint(i % 4 - 1.5, i // 4 - 1, 0.1 * (i % 3))
+    count = numpy.arange(12)
+    for name, values in (("shape", count % 2), ("size", 0.8 + 0.05 * count), ("Normals", numpy.stack([1 + 0 * count, 0.25 * (count % 3), 0.125 * count], -1))):
+        array = numpy_to_vtk(values.astype(float), deep=1)
+        array.SetName(name)
+        points.GetPointData().AddArray(array)
+    mapper = vtk.vtkGlyph3DMapper()
+    mapper.SetInputData(points)
+    for index, source in enumerate((vtk.vtkConeSource(), vtk.vtkPlaneSource())):
+        source.Update()
+        mapper.SetSourceData(index, source.GetOutput())
+    mapper.SetOrientationArray("Normals")
+    mapper.SetScaleArray("size")
+    mapper.SetScaleModeToScaleByMagnitude()
+    mapper.SetSourceIndexArray("shape")
+    mapper.SourceIndexingOn()
+    made = vtk.vtkActor()
+    made.SetMapper(mapper)
+    made.SetTexture(picture())
+    return renderer(made, eye=(0.5, 0.4, 5))
+
+
+@scene
+def partly_textured():
+    """Blocks of one actor with a texture: a plane that has coordinates of it, and a cone that has none."""
+    parts = vtk.vtkMultiBlockDataSet()
+    for i, source in enumerate((vtk.vtkConeSource(), vtk.vtkPlaneSource())):
+        source.SetCenter(0.7 * i, 0, 0)
+        source.Update()
+        parts.SetBlock(i, source.GetOutput())
+    made = actor(parts, vtk.vtkCompositePolyDataMapper2(), color=(0.4, 0.9, 0.5))
+    made.SetTexture(picture())
+    return renderer(made, eye=(0.5, 0.4, 3))
+
+
+@scene
 def hedgehog():
     """Spikes of one cone by the mapper: turned by vectors, scaled by three numbers each, of which some mirror."""
     sphere = vtk.vtkSphereSource()

@@ -405,7 +405,9 @@ Material actorMaterial(
     material.ambient = (ambient + diffuse) / worldAmbient;
     material.diffuse.setZero();
   }
-  if (vtkTexture* const texture = actor.GetTexture(); texture != nullptr && !material.physical)
+  // VTK draws what has no coordinates of the texture without it.
+  const bool hasCoordinates = piece.data->GetPointData()->GetTCoords() != nullptr;
+  if (vtkTexture* const texture = actor.GetTexture(); texture != nullptr && hasCoordinates && !material.physical)
   {
     if (material.texture = addTexture(*texture, model, name, unsupported); material.texture >= 0)
     {
