@@ -186,6 +186,23 @@ def partly_textured():
 
 
 @scene
+def partly_mapped():
+    """Blocks of which one has scalars, which are interpolated before they are mapped; the others have the actor's colour."""
+    parts = vtk.vtkMultiBlockDataSet()
+    for i, source in enumerate((vtk.vtkConeSource(), vtk.vtkPlaneSource(), vtk.vtkSphereSource())):
+        source.SetCenter(0.8 * i - 0.8, 0, 0)
+        source.Update()
+        parts.SetBlock(i, source.GetOutput())
+    values = numpy_to_vtk(numpy.array([0.0, 1.1, 2.2, 2.9]), deep=1)
+    values.SetName("height")
+    parts.GetBlock(1).GetPointData().SetScalars(values)
+    mapper = vtk.vtkCompositePolyDataMapper2()
+    mapper.InterpolateScalarsBeforeMappingOn()
+    mapper.SetScalarRange(0, 3)
+    return renderer(actor(parts, mapper, color=(0.4, 0.9, 0.5)), eye=(0.5, 0.4, 4))
+
+
+@scene
 def hedgehog():
     """Spikes of one cone by the mapper: turned by vectors, scaled by three numbers each, of which some mirror."""
     sphere = vtk.vtkSphereSource()

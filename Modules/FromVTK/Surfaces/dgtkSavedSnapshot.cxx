@@ -9,6 +9,9 @@
 #include "dgtkSurfaceMaterial.h"
 #include "dgtkText.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -42,6 +45,29 @@ void writePicture(const Image& image, const std::string& path)
   writer->finish();
 }
 
+/// A map of colours as a texture: filters that reduce it do not mix its rows, which are that high.
+Image asTexture(const Image& map)
+{
+  constexpr int rowHeight = 64;
+  Image made = map;
+  made.height = rowHeight * map.height;
+  made.rgba.clear();
+  const std::ptrdiff_t rowBytes = 4 * std::ptrdiff_t(map.width);
+  for (int y = 0; y < made.height; ++y)
+  {
+    const auto row = map.rgba.begin() + rowBytes * (y / rowHeight);
+    made.rgba.insert(made.rgba.end(), row, row + rowBytes);
+  }
+  return made;
+}
+
+/// A place in it: in the middle of the row.
+Eigen::Vector2d inTexture(const Eigen::Vector2d& place, const Image& map)
+{
+  const double row = std::clamp(std::floor(place.y() * map.height), 0.0, map.height - 1.0);
+  return { place.x(), (row + 0.5) / map.height };
+}
+
 /// One model as OBJ with its library of materials.
 class ObjFile
 {
@@ -50,7 +76,7 @@ public:
     : From(model)
     , Folder(folder)
     , Name(name)
-    , MapIsTexture(model.colorMap && model.uvs.empty())
+    , MapIsTexture(model.colorMap && model.textures.empty())
   {
   }
 
@@ -65,7 +91,7 @@ public:
     }
     if (this->MapIsTexture)
     {
-      writePicture(*this->From.colorMap, this->Folder + '/' + this->picture(this->From.textures.size()));
+      writePicture(asTexture(*this->From.colorMap), this->Folder + '/' + this->picture(this->From.textures.size()));
     }
   }
 
@@ -99,7 +125,8 @@ private:
     }
     for (const Eigen::Vector2d& uv : uvs)
     {
-      text += "vt" + joinedNumbers(uv.data(), 2) + '\n';
+      const Eigen::Vector2d place = this->MapIsTexture ? inTexture(uv, *m.colorMap) : uv;
+      text += "vt" + joinedNumbers(place.data(), 2) + '\n';
     }
     for (const Eigen::Vector3f& normal : g.normals)
     {

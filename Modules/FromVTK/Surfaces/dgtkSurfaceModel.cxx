@@ -29,6 +29,8 @@ namespace
 {
 constexpr std::size_t mostWork = std::size_t(1) << 32; ///< of cutting ears, in steps
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+/// Of a vertex whose block has no scalars, in the map of others' colours.
+const Eigen::Vector2d unmapped(std::numeric_limits<double>::quiet_NaN(), 0);
 
 /// How the normals of a piece come about, as VTK's mapper has it.
 enum class Normals
@@ -331,10 +333,16 @@ private:
       this->ToModel.colors.resize(this->ToGeometry.positions.size() - 1, { 255, 255, 255, 255 });
       this->ToModel.colors.push_back(color);
     }
+    std::vector<Eigen::Vector2d>& places = this->ToModel.colorMapAt;
     if (this->Piece.colorMapAt)
     {
-      this->ToModel.colorMapAt.emplace_back(
+      places.resize(this->ToGeometry.positions.size() - 1, unmapped);
+      places.emplace_back(
         this->Piece.colorMapAt->GetComponent(index, 0), this->Piece.colorMapAt->GetComponent(index, 1));
+    }
+    else if (!places.empty())
+    {
+      places.resize(this->ToGeometry.positions.size(), unmapped);
     }
   }
 
@@ -378,10 +386,32 @@ private:
   std::vector<std::uint32_t> VertexOf; ///< by point
 };
 
+/// Vertices that have no place in the map of colours get one: a row of white above its others.
+void mapAll(Model& model)
+{
+  const auto isUnmapped = [](const Eigen::Vector2d& place) { return std::isnan(place.x()); };
+  std::vector<Eigen::Vector2d>& places = model.colorMapAt;
+  if (!model.colorMap || std::none_of(places.begin(), places.end(), isUnmapped))
+  {
+    return;
+  }
+  auto map = std::make_shared<Image>(*model.colorMap);
+  const double rows = map->height++;
+  map->rgba.insert(map->rgba.begin(), 4 * std::size_t(map->width), 255);
+  for (Eigen::Vector2d& place : places)
+  {
+    const double row = std::min(place.y() * rows, rows - 0.5); // above the highest one it went on
+    place = isUnmapped(place) ? Eigen::Vector2d(0, 1) : Eigen::Vector2d(place.x(), row / (rows + 1));
+  }
+  model.colorMap = map;
+}
+
 void complete(Model& model, Geometry& geometry)
 {
   const std::size_t vertices = geometry.positions.size();
   model.sourceVertices = vertices;
+  model.colorMapAt.resize(model.colorMapAt.empty() ? 0 : vertices, unmapped);
+  mapAll(model);
   if (!model.colors.empty())
   {
     model.colors.resize(vertices, { 255, 255, 255, 255 });
@@ -429,6 +459,10 @@ SurfaceModel surfaceModel(vtkActor& actor, const std::vector<SurfacePiece>& piec
         model->colorMap = shown;
       }
     }
+  }
+  if (model->colorMap && !model->colors.empty())
+  {
+    made.left.add("colours of some blocks beside scalars of others that are interpolated before they are mapped");
   }
   complete(*model, *geometry);
   model->rest = geometry;
