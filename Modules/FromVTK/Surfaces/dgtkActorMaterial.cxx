@@ -415,8 +415,9 @@ Material actorMaterial(
       material.cutOut = made.image->hasAlpha;
       made.image = texture->GetUseSRGBColorSpace() ? linearised(*made.image) : made.image;
     }
-    refuse(piece.colorMapAt != nullptr, "a texture beside scalars that are interpolated before they are mapped");
   }
+  refuse(actor.GetTexture() != nullptr && !material.physical && piece.colorMapAt != nullptr,
+    "a texture beside scalars that are interpolated before they are mapped");
   refuse(actor.GetForceOpaque() && material.opacity < 1, "an opacity below 1 of what is forced to be opaque");
   refuse(actor.GetShaderProperty()->GetNumberOfShaderReplacements() > 0, "replaced shaders");
   refuse(property.GetEdgeVisibility() != 0, "visible edges");
