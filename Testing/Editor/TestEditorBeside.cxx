@@ -15,7 +15,7 @@
 
 namespace
 {
-constexpr int largeSide = 2000;     // pixels of pictures that take long
+constexpr int largeSide = 3200;     // pixels of pictures that take long
 constexpr int stirring = 3000;      // milliseconds
 constexpr int fewest = 4;           // rounds
 constexpr double answerLimit = 200; // milliseconds
