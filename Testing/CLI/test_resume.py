@@ -57,7 +57,7 @@ class Resume(Case):
 
     def test_interrupt_within_a_picture(self):
         """A large picture is not waited for."""
-        options = ("--quiet", "--layers", "color,depth", "--size", "256x12000", "--tile", "256x16", "--frames", "0:0")
+        options = ("--quiet", "--layers", "color,depth", "--size", "256x36000", "--tile", "256x16", "--frames", "0:0")
         folder = self.path("part")
         status, errors = self.interrupted(folder, signal.SIGINT, options, 1)
         self.assertEqual(status, 75, errors)
