@@ -112,6 +112,25 @@ def spikes():
     return renderer(actor(sphere, color=(1, 0.8, 0.6)), actor(glyphs, color=(0.4, 0.7, 0.3)))
 
 
+def glyphs_by_arrays(points, shapes, **arrays):
+    """A mapper of glyphs that are chosen, turned and scaled by arrays of the points: shape, Normals and size."""
+    for name, values in arrays.items():
+        array = numpy_to_vtk(values.astype(float), deep=1)
+        array.SetName(name)
+        points.GetPointData().AddArray(array)
+    mapper = vtk.vtkGlyph3DMapper()
+    mapper.SetInputData(points)
+    for index, source in enumerate(shapes):
+        source.Update()
+        mapper.SetSourceData(index, source.GetOutput())
+    mapper.SetOrientationArray("Normals")
+    mapper.SetScaleArray("size")
+    mapper.SetScaleModeToScaleByMagnitude()
+    mapper.SetSourceIndexArray("shape")
+    mapper.SourceIndexingOn()
+    return mapper
+
+
 @scene
 def glyph_mapper():
     """The same by the mapper: two shapes, chosen, turned, scaled and coloured by arrays of the points."""
@@ -122,22 +141,10 @@ def glyph_mapper():
     points = vtk.vtkPolyData()
     points.DeepCopy(sphere.GetOutput())
     count = points.GetNumberOfPoints()
-    for name, values in (("size", numpy.linspace(0.5, 1.5, count)), ("shape", numpy.arange(count) % 2), ("shade", numpy.cos(numpy.arange(count)))):
-        array = numpy_to_vtk(values.astype(float), deep=1)
-        array.SetName(name)
-        points.GetPointData().AddArray(array)
+    mapper = glyphs_by_arrays(points, (vtk.vtkArrowSource(), vtk.vtkCubeSource()),
+                              size=numpy.linspace(0.5, 1.5, count), shape=numpy.arange(count) % 2, shade=numpy.cos(numpy.arange(count)))
     points.GetPointData().SetActiveScalars("shade")
-    mapper = vtk.vtkGlyph3DMapper()
-    mapper.SetInputData(points)
-    for index, source in enumerate((vtk.vtkArrowSource(), vtk.vtkCubeSource())):
-        source.Update()
-        mapper.SetSourceData(index, source.GetOutput())
-    mapper.SetOrientationArray("Normals")
-    mapper.SetScaleArray("size")
-    mapper.SetScaleModeToScaleByMagnitude()
     mapper.SetScaleFactor(0.2)
-    mapper.SetSourceIndexArray("shape")
-    mapper.SourceIndexingOn()
     mapper.SetScalarRange(-1, 1)
     made = vtk.vtkActor()
     made.SetMapper(mapper)
@@ -152,20 +159,8 @@ def two_shapes():
     for i in range(12):
         points.GetPoints().InsertNextPoint(i % 4 - 1.5, i // 4 - 1, 0.1 * (i % 3))
     count = numpy.arange(12)
-    for name, values in (("shape", count % 2), ("size", 0.8 + 0.05 * count), ("Normals", numpy.stack([1 + 0 * count, 0.25 * (count % 3), 0.125 * count], -1))):
-        array = numpy_to_vtk(values.astype(float), deep=1)
-        array.SetName(name)
-        points.GetPointData().AddArray(array)
-    mapper = vtk.vtkGlyph3DMapper()
-    mapper.SetInputData(points)
-    for index, source in enumerate((vtk.vtkConeSource(), vtk.vtkPlaneSource())):
-        source.Update()
-        mapper.SetSourceData(index, source.GetOutput())
-    mapper.SetOrientationArray("Normals")
-    mapper.SetScaleArray("size")
-    mapper.SetScaleModeToScaleByMagnitude()
-    mapper.SetSourceIndexArray("shape")
-    mapper.SourceIndexingOn()
+    mapper = glyphs_by_arrays(points, (vtk.vtkConeSource(), vtk.vtkPlaneSource()), shape=count % 2, size=0.8 + 0.05 * count,
+                              Normals=numpy.stack([1 + 0 * count, 0.25 * (count % 3), 0.125 * count], -1))
     made = vtk.vtkActor()
     made.SetMapper(mapper)
     made.SetTexture(picture())

@@ -333,16 +333,12 @@ private:
       this->ToModel.colors.resize(this->ToGeometry.positions.size() - 1, { 255, 255, 255, 255 });
       this->ToModel.colors.push_back(color);
     }
-    std::vector<Eigen::Vector2d>& places = this->ToModel.colorMapAt;
     if (this->Piece.colorMapAt)
     {
+      std::vector<Eigen::Vector2d>& places = this->ToModel.colorMapAt;
       places.resize(this->ToGeometry.positions.size() - 1, unmapped);
       places.emplace_back(
         this->Piece.colorMapAt->GetComponent(index, 0), this->Piece.colorMapAt->GetComponent(index, 1));
-    }
-    else if (!places.empty())
-    {
-      places.resize(this->ToGeometry.positions.size(), unmapped);
     }
   }
 

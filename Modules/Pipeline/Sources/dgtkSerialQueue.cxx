@@ -31,7 +31,7 @@ void SerialQueue::submit(std::function<void()> job)
     }
     this->Running = true;
   }
-  // only the submitting thread touches Runner, and the runner before has ended
+  // only who submits touches Runner, one thread at a time, and the runner before has ended
   this->Runner = this->Pool.submit([this] { this->drain(); });
 }
 

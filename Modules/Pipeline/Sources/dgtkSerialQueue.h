@@ -25,6 +25,7 @@ public:
   SerialQueue(const SerialQueue&) = delete;
   SerialQueue& operator=(const SerialQueue&) = delete;
 
+  /// From one thread at a time; wait() only when none does.
   void submit(std::function<void()> job);
   /// Whether wait() need not wait.
   bool isDone() const;
