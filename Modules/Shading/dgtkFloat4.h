@@ -131,7 +131,6 @@ inline float atan2(float y, float x)
 } // namespace portable
 
 /// IEC 61966-2-1, of each of three channels, >= 0; both go on above 1.
-/// IEC 61966-2-1, of each of three channels, >= 0; both go on above 1.
 inline Float4 toLinear(Float4 c)
 {
   return c < 0.04045F ? c * (1 / 12.92F) : portable::exp2(2.4F * portable::log2((c + 0.055F) * (1 / 1.055F)));

@@ -26,6 +26,9 @@ public:
   explicit RayDifferentials(const CameraModel& model);
   /// Of columns [first, first + count) of row y, until the next row.
   const std::vector<PixelRay>& row(int y, int first, int count);
+  /// Of all pixels, where the camera is linear.
+  const CameraRay& right() const { return this->Right; }
+  const CameraRay& down() const { return this->Down; }
 
 private:
   void linearRow(int y, int first, int count);

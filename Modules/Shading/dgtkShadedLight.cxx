@@ -130,6 +130,11 @@ void turnByBump(ShadedPoint& p)
 }
 } // namespace
 
+bool turnsNormals(const ShadedMaterial& material)
+{
+  return material.bumpMap != nullptr || material.normalMap != nullptr;
+}
+
 void turnNormal(ShadedPoint& point)
 {
   if (point.material->bumpMap != nullptr)

@@ -22,7 +22,8 @@ struct ShadedPoint
   Float4 position;
   Float4 normal; ///< unit, of the side that is seen
   Float4 viewer; ///< unit, towards the eye
-  Float4 right;  ///< how the position changes to the pixel on the right, on the triangle's plane ...
+  Float4 right;  ///< where pictures turn the normal: how the position changes to the pixel on the right, on the
+                 ///< triangle's plane ...
   Float4 down;   ///< ... and to that below
   Footprint footprint;
   Float4 texture; ///< of the material's picture, where it has one
@@ -34,6 +35,9 @@ struct ShadedPoint
   Eigen::Vector3d lifted;  ///< position, off flat triangles towards the surface that they stand for
   Eigen::Vector3d outward; ///< unit normal of the triangle, of the side that is seen
 };
+
+/// Whether turnNormal() does anything.
+bool turnsNormals(const ShadedMaterial& material);
 
 /// Turns the normal as the material's pictures say.
 void turnNormal(ShadedPoint& point);

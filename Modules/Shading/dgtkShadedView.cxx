@@ -28,6 +28,7 @@ Float4 tintOf(const std::array<std::uint8_t, 4>& color)
 ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view)
   : State(std::move(state))
   , TheView(view)
+  , Pinhole(view.model->linear() && view.model->linear()->perspective)
   , Light(*this->State, view)
 {
   for (const Instance& instance : this->State->instances)
@@ -46,7 +47,7 @@ ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view
   }
 }
 
-void ShadedView::prepare(const Hit& hit, Triangle& triangle) const
+void ShadedView::prepare(const Hit& hit, const RayDifferentials& rays, Triangle& triangle) const
 {
   const Instance& instance = this->State->instances[hit.object - 1];
   const Placed& placed = this->Objects[hit.object - 1];
@@ -63,8 +64,14 @@ void ShadedView::prepare(const Hit& hit, Triangle& triangle) const
   triangle.normal = ab.cross(ac);
   const double area = triangle.normal.squaredNorm();
   const double perArea = area > 0 ? 1 / area : 0.0;
-  triangle.second = ac.cross(triangle.normal) * perArea;
-  triangle.third = triangle.normal.cross(ab) * perArea;
+  triangle.plane.row(0) = ac.cross(triangle.normal) * perArea;
+  triangle.plane.row(1) = triangle.normal.cross(ab) * perArea;
+  if (this->Pinhole)
+  {
+    triangle.toCorner = triangle.across(a);
+    triangle.toRight = triangle.across(rays.right().direction);
+    triangle.toBelow = triangle.across(rays.down().direction);
+  }
   Float4 normals[3];
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -76,10 +83,8 @@ void ShadedView::prepare(const Hit& hit, Triangle& triangle) const
   if (triangle.material->mapped)
   {
     triangle.uv = model.uvs[corners[0]];
-    const Eigen::Vector2d toSecond = model.uvs[corners[1]] - triangle.uv;
-    const Eigen::Vector2d toThird = model.uvs[corners[2]] - triangle.uv;
-    triangle.toU = toSecond.x() * triangle.second + toThird.x() * triangle.third;
-    triangle.toV = toSecond.y() * triangle.second + toThird.y() * triangle.third;
+    triangle.uvMore.col(0) = model.uvs[corners[1]] - triangle.uv;
+    triangle.uvMore.col(1) = model.uvs[corners[2]] - triangle.uv;
   }
   prepareTint(model, corners, triangle);
   if (this->Shadows)
@@ -126,15 +131,16 @@ Float4 ShadedView::tintOf(const Triangle& triangle, double second, double third)
 
 void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const
 {
-  const Eigen::Vector3d& d = ray.own->direction;
-  const double along = triangle.normal.dot(d);
-  const double perAlong = along != 0 ? 1 / along : 0.0;
-  const double t = triangle.normal.dot(triangle.corner - ray.own->origin) * perAlong;
-  const Eigen::Vector3d position = ray.own->origin + t * d;
-  const Eigen::Vector3d inside = position - triangle.corner;
-  const double second = triangle.second.dot(inside);
-  const double third = triangle.third.dot(inside);
-  const bool front = along * triangle.side < 0; // what is seen from behind has its normal turned
+  const CameraRay& own = *ray.own;
+  const Across d = triangle.across(own.direction);
+  const Across from = this->Pinhole ? triangle.toCorner : triangle.across(triangle.corner - own.origin);
+  const double perOff = d.off != 0 ? 1 / d.off : 0.0;
+  const double t = from.off * perOff;
+  const Eigen::Vector3d position = own.origin + t * own.direction;
+  const Eigen::Vector2d inside = t * d.along - from.along;
+  const double second = inside.x();
+  const double third = inside.y();
+  const bool front = d.off * triangle.side < 0; // what is seen from behind has its normal turned
   const ShadedMaterial& material = *triangle.material;
 
   point.object = triangle.hit.object;
@@ -143,8 +149,8 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   point.viewer = float4(0);
   if (this->Light.needsViewer(material))
   {
-    const double length = d.norm();
-    point.viewer = toFloat4(d * (-1 / length));
+    const double length = own.direction.norm();
+    point.viewer = toFloat4(own.direction * (-1 / length));
     point.distance = float(t * length);
   }
   const Float4 normal =
@@ -158,19 +164,31 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   }
   if (material.mapped)
   {
-    const auto moved = [&](const CameraRay& by)
+    // Along the triangle's plane: what leads off it is taken back along the ray.
+    const auto footprint = [&](const Across& fixed, const CameraRay& by) -> Eigen::Vector2d
     {
-      const Eigen::Vector3d across = by.origin + t * by.direction;
-      return Eigen::Vector3d(across - triangle.normal.dot(across) * perAlong * d);
+      Across to{ t * fixed.off, t * fixed.along };
+      if (!this->Pinhole)
+      {
+        to = triangle.across(by.origin + t * by.direction);
+      }
+      return triangle.uvMore * (to.along - to.off * perOff * d.along);
     };
-    const Eigen::Vector3d right = moved(*ray.right);
-    const Eigen::Vector3d down = moved(*ray.down);
-    point.right = toFloat4(right);
-    point.down = toFloat4(down);
-    point.footprint = { triangle.uv.x() + triangle.toU.dot(inside), triangle.uv.y() + triangle.toV.dot(inside),
-      float(triangle.toU.dot(right)), float(triangle.toV.dot(right)), float(triangle.toU.dot(down)),
-      float(triangle.toV.dot(down)) };
-    turnNormal(point);
+    const Eigen::Vector2d uv = triangle.uv + triangle.uvMore * inside;
+    const Eigen::Vector2d right = footprint(triangle.toRight, *ray.right);
+    const Eigen::Vector2d down = footprint(triangle.toBelow, *ray.down);
+    point.footprint = { uv.x(), uv.y(), float(right.x()), float(right.y()), float(down.x()), float(down.y()) };
+    if (turnsNormals(material))
+    {
+      const auto moved = [&](const CameraRay& by)
+      {
+        const Eigen::Vector3d across = by.origin + t * by.direction;
+        return toFloat4(Eigen::Vector3d(across - triangle.normal.dot(across) * perOff * own.direction));
+      };
+      point.right = moved(*ray.right);
+      point.down = moved(*ray.down);
+      turnNormal(point);
+    }
   }
 }
 

@@ -58,20 +58,30 @@ private:
   };
   static constexpr std::size_t lanes = LightPoints::count;
   static_assert(lanes <= ShadowQuery::mostPaths);
+  /// A vector as a triangle sees it.
+  struct Across
+  {
+    double off = 0;        ///< along its normal, times twice its area
+    Eigen::Vector2d along; ///< what it adds to the barycentric coordinates of the second and third corner
+  };
   /// A triangle in the frame of the camera: what does not depend on the pixel.
   struct Triangle
   {
+    Across across(const Eigen::Vector3d& v) const
+    {
+      return { this->normal.dot(v),
+        this->plane.col(0) * v.x() + this->plane.col(1) * v.y() + this->plane.col(2) * v.z() };
+    }
     Hit hit;
     const ShadedMaterial* material = nullptr;
     double side = 1; ///< -1: of a mirrored object
     Eigen::Vector3d corner;
-    Eigen::Vector3d normal; ///< (second - first) x (third - first)
-    Eigen::Vector3d second; ///< gradients of the barycentric coordinates
-    Eigen::Vector3d third;
-    Eigen::Vector3d toU; ///< and of the texture's
-    Eigen::Vector3d toV;
-    Eigen::Vector2d uv; ///< of the first corner
-    Float4 shading;     ///< normals: of the first corner, and what the others have more; not of unit length
+    Eigen::Vector3d normal;            ///< (second - first) x (third - first)
+    Eigen::Matrix<double, 2, 3> plane; ///< gradients of the barycentric coordinates of the second and third corner
+    Eigen::Matrix2d uvMore;            ///< texture coordinates: what these corners have more than the first ...
+    Eigen::Vector2d uv;                ///< ... which has these
+    Across toCorner, toRight, toBelow; ///< pinholes: from the eye; direction to the neighbouring pixels' rays
+    Float4 shading; ///< normals: of the first corner, and what the others have more; not of unit length
     Float4 shadingSecond;
     Float4 shadingThird;
     Float4 tint; ///< colours of vertices, in the same way; ones where there are none
@@ -87,7 +97,7 @@ private:
     Eigen::Vector2d mapSecond;
     Eigen::Vector2d mapThird;
   };
-  void prepare(const Hit& hit, Triangle& triangle) const;
+  void prepare(const Hit& hit, const RayDifferentials& rays, Triangle& triangle) const;
   static void prepareTint(const Model& model, const std::array<std::uint32_t, 3>& corners, Triangle& triangle);
   static Float4 tintOf(const Triangle& triangle, double second, double third);
   void place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const;
@@ -108,6 +118,7 @@ private:
 
   std::shared_ptr<const SceneState> State;
   View TheView;
+  bool Pinhole; ///< all rays start at the eye, neighbours differ by the same everywhere
   ShadedLight Light;
   std::vector<Placed> Objects;
   bool Translucent = false;
@@ -135,7 +146,7 @@ private:
     Triangle& kept = this->Triangles[slot];
     if (kept.hit != hit)
     {
-      view.prepare(hit, kept);
+      view.prepare(hit, this->Rays, kept);
     }
     return kept;
   }
