@@ -185,21 +185,25 @@ bool PacketTracer::anyHit() const
 
 void PacketTracer::mark(const PixelRect& block, const VisibilityBuffer& buffer, RayMarks& marks)
 {
-  int clear[lanes];
+  int clear[lanes] = {};
   if (this->anyHit())
   {
     this->findClear(clear);
   }
+  alignas(64) float nearness[lanes];
+  std::uint8_t doubtful[lanes];
+  for (int lane = 0; lane < lanes; ++lane)
+  {
+    const bool any = this->Packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+    const float inverse = 1 / this->Packet.ray.tfar[lane];
+    nearness[lane] = any ? inverse : 0;
+    doubtful[lane] = any & (clear[lane] == 0);
+  }
   for (int y = 0; y < block.height; ++y)
   {
     const std::size_t row = std::size_t(block.y - buffer.rect.y + y) * buffer.rect.width + (block.x - buffer.rect.x);
-    for (int x = 0; x < block.width; ++x)
-    {
-      const int lane = y * side + x;
-      const bool any = this->Packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-      marks.nearness[row + x] = any ? 1 / this->Packet.ray.tfar[lane] : 0;
-      marks.doubtful[row + x] = any && clear[lane] == 0;
-    }
+    std::copy_n(nearness + side * y, block.width, &marks.nearness[row]);
+    std::copy_n(doubtful + side * y, block.width, &marks.doubtful[row]);
   }
 }
 

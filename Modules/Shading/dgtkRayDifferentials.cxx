@@ -25,24 +25,29 @@ RayDifferentials::RayDifferentials(const CameraModel& model)
 
 const std::vector<PixelRay>& RayDifferentials::row(int y, int first, int count)
 {
-  this->Row.resize(std::size_t(count));
-  this->Linear ? this->linearRow(y, first, count) : this->generalRow(y, first, count);
+  this->Linear ? this->linearRow(y, first, std::size_t(count)) : this->generalRow(y, first, count);
   return this->Row;
 }
 
-void RayDifferentials::linearRow(int y, int first, int count)
+void RayDifferentials::linearRow(int y, int first, std::size_t count)
 {
-  this->Pixels.resize(std::size_t(count));
-  this->Own.resize(std::size_t(count));
-  for (int i = 0; i < count; ++i)
+  if (count != this->Row.size() || first != this->RowFirst)
   {
-    this->Pixels[std::size_t(i)] = { first + i + 0.5, y + 0.5 };
+    this->Pixels.resize(count);
+    this->Own.resize(count);
+    this->Row.resize(count);
+    this->RowFirst = first;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->Pixels[i].x() = first + int(i) + 0.5;
+      this->Row[i] = { &this->Own[i], &this->Right, &this->Down };
+    }
   }
-  this->Model.raysThrough(this->Pixels.data(), std::size_t(count), this->Own.data());
-  for (std::size_t i = 0; i < std::size_t(count); ++i)
+  for (Eigen::Vector2d& pixel : this->Pixels)
   {
-    this->Row[i] = { &this->Own[i], &this->Right, &this->Down };
+    pixel.y() = y + 0.5;
   }
+  this->Model.raysThrough(this->Pixels.data(), count, this->Own.data());
 }
 
 /// To the right and left along the row, at the border of what is seen to one side; down to the next row, on the last
@@ -63,6 +68,7 @@ void RayDifferentials::generalRow(int y, int first, int count)
     }
     this->Model.raysThrough(this->Pixels.data(), wide, rays.data());
   };
+  this->Row.resize(std::size_t(count));
   this->Differences.resize(2 * std::size_t(count));
   if (y == this->BelowRow && low == this->BelowLow && wide == this->BelowWide)
   {

@@ -31,13 +31,14 @@ public:
   const CameraRay& down() const { return this->Down; }
 
 private:
-  void linearRow(int y, int first, int count);
+  void linearRow(int y, int first, std::size_t count);
   void generalRow(int y, int first, int count);
 
   const CameraModel& Model;
   bool Linear;
   CameraRay Right; ///< linear: everywhere the same
   CameraRay Down;
+  int RowFirst = 0; ///< linear: of Row, which differs from the next only in the rays themselves
   std::vector<Eigen::Vector2d> Pixels;
   std::vector<CameraRay> Own;
   std::vector<CameraRay> Below;
