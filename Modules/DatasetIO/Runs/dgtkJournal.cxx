@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkFolderRecords.h"
 #include "dgtkHash.h"
+#include "dgtkSyncAhead.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWayCheck.h"
@@ -36,6 +37,8 @@ bool isWhole(const Folder& folder, const DatasetFile& file)
 
 namespace
 {
+constexpr std::uint64_t syncedTogether = std::uint64_t(16) << 20;
+
 void refuseIfNeeded(
   const std::string& folder, const FolderRecords& records, FolderContents contents, JournalStart start)
 {
@@ -143,10 +146,12 @@ struct Journal::Impl
   std::mutex mutex;
   NameTable listed; ///< files of a run that is resumed, finished ones and such as it has announced; LinePlaces
   std::size_t finished = 0;
+  SyncAhead ahead;
 
   Impl(const std::string& path, const std::string& last)
     : folder(path)
     , document(last)
+    , ahead([this] { this->folder.syncAll(); }, syncedTogether)
   {
   }
 
@@ -393,8 +398,11 @@ void Journal::planLate(const std::string& name)
 
 void Journal::add(const DatasetFile& file)
 {
-  const std::lock_guard<std::mutex> guard(this->Self->mutex);
-  this->Self->append(journalLine(file));
+  {
+    const std::lock_guard<std::mutex> guard(this->Self->mutex);
+    this->Self->append(journalLine(file));
+  }
+  this->Self->ahead.wrote(file.bytes);
 }
 
 bool isFinished(const std::string& path, const std::string& requestHash)
@@ -421,6 +429,7 @@ void Journal::close(const Manifest& manifest)
 void Journal::close(const std::function<void(AtomicFile& document)>& write)
 {
   // whoever finds a manifest finds whole files, also when the power fails
+  this->Self->ahead.finish();
   this->Self->folder.syncAll();
   AtomicFile document(FilePlace(this->Self->folder.path(), this->Self->document));
   write(document);
