@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import time
+import unittest
 
 from harness import DGTK, SCENES, Case, digests, load_json, main
 
@@ -62,6 +63,19 @@ class Resume(Case):
         status, errors = self.interrupted(folder, signal.SIGINT, options, 1)
         self.assertEqual(status, 75, errors)
         self.assertEqual([n for n in digests(folder) if n.endswith((".png", ".npy", ".exr"))], [])
+        self.dgtk("render", SCENE, "-o", folder, *options, "--resume")
+        self.dgtk("render", SCENE, "-o", self.path("whole"), *options)
+        self.assert_same_files(self.path("whole"), folder)
+
+    @unittest.skipIf(os.environ.get("DGTK_TEST_SANITIZED"), "sanitizers start before what is preloaded")
+    def test_a_block_lost_on_the_way_to_the_disk(self):
+        """Who waits for the disk beside the work is told of it, and the system tells only once."""
+        options = ("--quiet", "--layers", "depth", "--size", "1024x768", "--frames", "0:2")  # 18 MiB
+        folder = self.path("lost")
+        lost = os.path.join(os.environ["DGTK_BUILD"], "lib", "libdgtk_lost_block.so")
+        done = self.dgtk("render", SCENE, "-o", folder, *options, status=4, environment={"LD_PRELOAD": lost})
+        self.assertEqual(done.stderr, f"dgtk: {folder}: cannot be written: Input/output error\n")
+        self.assertFalse(os.path.exists(os.path.join(folder, "manifest.json")))
         self.dgtk("render", SCENE, "-o", folder, *options, "--resume")
         self.dgtk("render", SCENE, "-o", self.path("whole"), *options)
         self.assert_same_files(self.path("whole"), folder)
