@@ -18,7 +18,9 @@ std::string measured(
   const std::string& objects, const std::string& camera, const std::string& require, const std::string& name)
 {
   const test::TemporaryFolder folder;
-  writeFile(folder.path("square.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+  const std::string square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+  writeFile(folder.path("square.obj"), square);
+  writeFile(folder.path("sheets.obj"), square + "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nf 5 6 7 8\n");
   const std::string json = R"({ "seed": 1, "objects": [ )" + objects + R"( ], "cameras": [ { "name": "c", )" + camera +
                            R"(, "require": { "otherwise": "omit", "attempts": 1, )" + require + " } } ] }";
   const SceneSample sample = Sampler(RandomScene::ofText(json, folder.path())).draw(0);
@@ -88,6 +90,16 @@ TEST(CameraRequirement, TheLeastOfAllThatFitThePatternCounts)
     "off is visible by 0 of 0.25 at frame 0");
   EXPECT_EQ(measured(both, camera, R"("pixels": 80, "visible": { "none": 0.25 })", "visible none"),
     "none is visible by 0 of 0.25 at frame 0");
+}
+
+TEST(CameraRequirement, APixelCountsOnceForAllSheetsOfAnObject)
+{
+  const std::string sheets = R"({ "name": "sheets", "model": "sheets.obj" })";
+  const std::string camera = view(R"(, "viewHeight": 6)");
+  const std::string require = R"("pixels": 80, "visible": { "sheets": 0.1 })";
+  EXPECT_EQ(measured(sheets, camera, require, "visible sheets"), "1");
+  EXPECT_EQ(
+    measured(sheets + ", " + object("half", "[1, 0, 1]", "[1, 1, 1]"), camera, require, "visible sheets"), "0.5");
 }
 
 TEST(CameraRequirement, HoldsAtSomeKeyFrames)
