@@ -5,6 +5,7 @@
 #include "dgtkWideCanvas.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -19,21 +20,16 @@ constexpr double poseTolerance = 1e-12;
 /// Pixels, or that part of a place far outside.
 constexpr double projectedTolerance = 1e-9;
 
-template <typename Inside>
-Extent extentOf(const Picture& picture, const Inside& inside)
+template <typename Body>
+void forPixels(const Picture& picture, const Body& body)
 {
-  Extent extent;
   for (int y = 0; y < picture.height(); ++y)
   {
     for (int x = 0; x < picture.width(); ++x)
     {
-      if (inside(x, y))
-      {
-        extent.addPixel(x, y);
-      }
+      body(x, y);
     }
   }
-  return extent;
 }
 
 Eigen::MatrixXd jsonMatrix(const Json& json, std::size_t rows, std::size_t columns)
@@ -61,6 +57,10 @@ public:
     , File(file)
     , Objects(picture.quietly([&] { return picture.ids("objects"); }))
   {
+    if (this->Objects)
+    {
+      forPixels(picture, [&](int x, int y) { this->Visible[this->Objects->id(x, y)].addPixel(x, y); });
+    }
     const std::string masks = picture.dataset().find(picture.camera(), "amodal", picture.frame(), { ".json" });
     if (!masks.empty())
     {
@@ -95,13 +95,11 @@ public:
     const std::uint64_t amodal = object.at("pixels_amodal").get<std::uint64_t>();
     if (this->Objects)
     {
-      this->mask("visible", visible, object.at("box_visible"),
-        extentOf(this->Owner, [&](int x, int y) { return this->Objects->id(x, y) == this->Id; }));
+      this->mask("visible", visible, object.at("box_visible"), this->Visible[this->Id]);
     }
     if (this->Amodal)
     {
-      this->mask("amodal", amodal, object.at("box_amodal"),
-        extentOf(this->Owner, [&](int x, int y) { return this->Amodal->inside(this->Id, x, y); }));
+      this->mask("amodal", amodal, object.at("box_amodal"), this->covered());
     }
     this->number(this->Masks, "visible_fraction", object.at("visible_fraction").get<double>(),
       amodal > 0 ? double(visible) / double(amodal) : 0);
@@ -178,6 +176,24 @@ private:
   {
     this->number(this->Masks, "pixels_" + name, double(pixels), double(expected.pixels));
     this->box(this->Masks, "box_" + name, found, expected);
+  }
+
+  /// By the layer amodal.
+  Extent covered() const
+  {
+    Extent extent;
+    if (this->Amodal->byId.count(this->Id) != 0)
+    {
+      forPixels(this->Owner,
+        [&](int x, int y)
+        {
+          if (this->Amodal->inside(this->Id, x, y))
+          {
+            extent.addPixel(x, y);
+          }
+        });
+    }
+    return extent;
   }
 
   /// As the document has it.
@@ -327,6 +343,7 @@ private:
   Picture& Owner;
   std::string File;
   PicturePointer Objects;
+  std::map<std::uint32_t, Extent> Visible; ///< by Objects
   std::optional<dgtk::Masks> Amodal;
   std::unique_ptr<WideCanvas> Around;
   std::uint32_t Id = 0;

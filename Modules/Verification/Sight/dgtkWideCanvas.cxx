@@ -213,11 +213,20 @@ Extent WideCanvas::around(std::uint32_t object) const
   }
   const std::vector<Face> faces = this->faces(object);
   Extent all;
+  if (faces.empty())
+  {
+    return all;
+  }
   for (const Extent& part : this->ofBands(
          [&](int y, int rows)
          {
-           const Band band = this->drawn(object, faces, y, rows);
            Extent extent;
+           if (std::none_of(
+                 faces.begin(), faces.end(), [&](const Face& face) { return face.y0 < y + rows && face.y1 > y; }))
+           {
+             return extent;
+           }
+           const Band band = this->drawn(object, faces, y, rows);
            this->forPixels(y, rows,
              [&](int x, int row)
              {
