@@ -37,7 +37,7 @@ bool isWhole(const Folder& folder, const DatasetFile& file)
 
 namespace
 {
-constexpr std::uint64_t syncedTogether = std::uint64_t(16) << 20;
+constexpr std::uint64_t syncedTogether = std::uint64_t(16) << 20; ///< bytes
 
 void refuseIfNeeded(
   const std::string& folder, const FolderRecords& records, FolderContents contents, JournalStart start)

@@ -82,7 +82,8 @@ public:
   void plan(const std::vector<std::string>& names);
   /// The same for one that was not among `names` of the constructor. Throws UsageError when it is in the way of one.
   void planLate(const std::string& name);
-  /// Records a finished file. May be called from any thread. Throws MachineError.
+  /// Records a finished file; many are sent to the disk meanwhile, of which close() tells what failed. May be called
+  /// from any thread. Throws MachineError.
   void add(const DatasetFile& file);
 
   /// Writes manifest.json and removes the journal; the last step of a run. Throws MachineError.

@@ -20,17 +20,7 @@ constexpr double poseTolerance = 1e-12;
 /// Pixels, or that part of a place far outside.
 constexpr double projectedTolerance = 1e-9;
 
-template <typename Body>
-void forPixels(const Picture& picture, const Body& body)
-{
-  for (int y = 0; y < picture.height(); ++y)
-  {
-    for (int x = 0; x < picture.width(); ++x)
-    {
-      body(x, y);
-    }
-  }
-}
+using Extents = std::map<std::uint32_t, Extent>; ///< by the object's id
 
 Eigen::MatrixXd jsonMatrix(const Json& json, std::size_t rows, std::size_t columns)
 {
@@ -55,16 +45,28 @@ public:
   BoxCheck(Picture& picture, const std::string& file)
     : Owner(picture)
     , File(file)
-    , Objects(picture.quietly([&] { return picture.ids("objects"); }))
   {
-    if (this->Objects)
+    if (const PicturePointer ids = picture.quietly([&] { return picture.ids("objects"); }))
     {
-      forPixels(picture, [&](int x, int y) { this->Visible[this->Objects->id(x, y)].addPixel(x, y); });
+      this->Visible.emplace();
+      this->forPixels([&](int x, int y) { (*this->Visible)[ids->id(x, y)].addPixel(x, y); });
     }
-    const std::string masks = picture.dataset().find(picture.camera(), "amodal", picture.frame(), { ".json" });
-    if (!masks.empty())
+    const std::string amodal = picture.dataset().find(picture.camera(), "amodal", picture.frame(), { ".json" });
+    if (!amodal.empty())
     {
-      this->Amodal = readMasks(picture.dataset().absolute(masks), picture.width(), picture.height());
+      const dgtk::Masks masks = readMasks(picture.dataset().absolute(amodal), picture.width(), picture.height());
+      this->Amodal.emplace();
+      for (const auto& [id, mask] : masks.byId)
+      {
+        this->forPixels(
+          [&, own = id](int x, int y)
+          {
+            if (masks.inside(own, x, y))
+            {
+              (*this->Amodal)[own].addPixel(x, y);
+            }
+          });
+      }
     }
   }
 
@@ -93,13 +95,13 @@ public:
     this->names(object);
     const std::uint64_t visible = object.at("pixels_visible").get<std::uint64_t>();
     const std::uint64_t amodal = object.at("pixels_amodal").get<std::uint64_t>();
-    if (this->Objects)
+    if (this->Visible)
     {
-      this->mask("visible", visible, object.at("box_visible"), this->Visible[this->Id]);
+      this->mask("visible", visible, object.at("box_visible"), (*this->Visible)[this->Id]);
     }
     if (this->Amodal)
     {
-      this->mask("amodal", amodal, object.at("box_amodal"), this->covered());
+      this->mask("amodal", amodal, object.at("box_amodal"), (*this->Amodal)[this->Id]);
     }
     this->number(this->Masks, "visible_fraction", object.at("visible_fraction").get<double>(),
       amodal > 0 ? double(visible) / double(amodal) : 0);
@@ -129,6 +131,18 @@ public:
   }
 
 private:
+  template <typename Body>
+  void forPixels(const Body& body) const
+  {
+    for (int y = 0; y < this->Owner.height(); ++y)
+    {
+      for (int x = 0; x < this->Owner.width(); ++x)
+      {
+        body(x, y);
+      }
+    }
+  }
+
   /// Every object of the scene, in its order.
   void names(const Json& object)
   {
@@ -176,24 +190,6 @@ private:
   {
     this->number(this->Masks, "pixels_" + name, double(pixels), double(expected.pixels));
     this->box(this->Masks, "box_" + name, found, expected);
-  }
-
-  /// By the layer amodal.
-  Extent covered() const
-  {
-    Extent extent;
-    if (this->Amodal->byId.count(this->Id) != 0)
-    {
-      forPixels(this->Owner,
-        [&](int x, int y)
-        {
-          if (this->Amodal->inside(this->Id, x, y))
-          {
-            extent.addPixel(x, y);
-          }
-        });
-    }
-    return extent;
   }
 
   /// As the document has it.
@@ -342,9 +338,8 @@ private:
 
   Picture& Owner;
   std::string File;
-  PicturePointer Objects;
-  std::map<std::uint32_t, Extent> Visible; ///< by Objects
-  std::optional<dgtk::Masks> Amodal;
+  std::optional<Extents> Visible; ///< by the layer objects
+  std::optional<Extents> Amodal;  ///< by the layer amodal
   std::unique_ptr<WideCanvas> Around;
   std::uint32_t Id = 0;
   std::size_t Number = 0; ///< of objects so far

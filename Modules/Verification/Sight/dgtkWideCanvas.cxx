@@ -213,10 +213,6 @@ Extent WideCanvas::around(std::uint32_t object) const
   }
   const std::vector<Face> faces = this->faces(object);
   Extent all;
-  if (faces.empty())
-  {
-    return all;
-  }
   for (const Extent& part : this->ofBands(
          [&](int y, int rows)
          {
