@@ -34,6 +34,18 @@ inline double valueAt(const Rows& rows, int x, int y, int channel = 0)
   return withPixelType(rows.type(), [&](auto type) { return double(rows.row<decltype(type)>(y)[i]); });
 }
 
+/// An id per pixel of a layer of ids, whatever its file; 24 bits of R, G, B where it has three channels.
+inline std::uint32_t idAt(const Rows& rows, int x, int y)
+{
+  if (rows.type() == PixelType::UInt8 && rows.channels() == 3) // what they usually are
+  {
+    const std::uint8_t* const pixel = rows.row<std::uint8_t>(y) + 3 * std::size_t(x);
+    return std::uint32_t(pixel[0]) << 16 | std::uint32_t(pixel[1]) << 8 | pixel[2];
+  }
+  const auto channel = [&](int c) { return static_cast<std::uint32_t>(valueAt(rows, x, y, c)); };
+  return rows.channels() >= 3 ? channel(0) << 16 | channel(1) << 8 | channel(2) : channel(0);
+}
+
 /// `count` channels from the first of pixel (x, y) on as numbers.
 inline void copyValues(const Rows& rows, int x, int y, std::size_t count, double* to)
 {

@@ -10,17 +10,6 @@
 namespace dgtk
 {
 
-std::uint32_t idAt(const Rows& rows, int x, int y)
-{
-  if (rows.type() == PixelType::UInt8 && rows.channels() == 3) // what they usually are
-  {
-    const std::uint8_t* const pixel = rows.row<std::uint8_t>(y) + 3 * std::size_t(x);
-    return std::uint32_t(pixel[0]) << 16 | std::uint32_t(pixel[1]) << 8 | pixel[2];
-  }
-  const auto channel = [&](int c) { return static_cast<std::uint32_t>(valueAt(rows, x, y, c)); };
-  return rows.channels() >= 3 ? channel(0) << 16 | channel(1) << 8 | channel(2) : channel(0);
-}
-
 Eigen::Matrix3d intrinsicsOf(const CameraRecord& camera, PixelCentre centre)
 {
   if (!camera.hasK)

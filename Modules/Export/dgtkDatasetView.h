@@ -162,10 +162,6 @@ private:
   std::unique_ptr<Poses> AllPoses;
 };
 
-/// An object id per pixel of rows of the layer `objects`, whatever its file; 24 bits of R, G, B where it has three
-/// channels.
-DGTKEXPORT_EXPORT std::uint32_t idAt(const Rows& rows, int x, int y);
-
 /// The camera's matrix in a format's pixels. Throws UsageError for a model without one.
 DGTKEXPORT_EXPORT Eigen::Matrix3d intrinsicsOf(const CameraRecord& camera, PixelCentre centre);
 /// x_camera from x_world, x right, y down, z forward; scene units.

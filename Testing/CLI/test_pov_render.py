@@ -65,6 +65,7 @@ class WithoutPovRay(Case):
         self.failed(self.fake("echo \"File 'a.inc' line 3: Possible Parse Error: Cannot find file 'bark.png', even after trying\" >&2\nexit 1\n"),
                     3, "a.inc:3: POV-Ray: Cannot find file 'bark.png'")
         self.failed(self.fake("exit 7\n"), 4, "POV-Ray ended with status 7")
+        self.failed(self.fake("printf 'Parsing\\n too many\\tthreads \\n\\nPOV-Ray finished\\n'\nexit 1\n"), 4, "POV-Ray ended with status 1: too many\\x09threads")
         self.failed(self.fake("kill -9 $$\n"), 4, "POV-Ray ended with signal 9")
         self.failed(self.fake("exit 0\n"), 4, "POV-Ray's picture is not whole")
 

@@ -179,31 +179,36 @@ class ExportCase(Case):
         done = self.dgtk("verify", dataset, "--export", folder, "--json", status=status)
         return json.loads(done.stdout)
 
-    def planted(self, dataset, folder, name, change):
-        """Changes a file of an export, hash and size in export.json with it; the referee must find it. Its breach in words."""
-        path = os.path.join(folder, name)
-        with open(path, "rb") as file:
-            old = file.read()
-        new = change(old)
-        self.assertNotEqual(old, new)
+    def planted(self, dataset, folder, names, change):
+        """Changes a file of an export, or several alike, hash and size in export.json with it; the referee must find it. Its breach in words."""
         record = os.path.join(folder, "export.json")
         with open(record, encoding="utf-8") as file:
             whole = file.read()
         mended = json.loads(whole)
-        row = next(one for one in mended["files"] if one["path"] == name)
-        self.assertEqual((row["sha256"], row["bytes"]), (hashlib.sha256(old).hexdigest(), len(old)))
-        row.update(sha256=hashlib.sha256(new).hexdigest(), bytes=len(new))
+        old, new = {record: whole.encode()}, {}
+        for name in [names] if isinstance(names, str) else names:
+            path = os.path.join(folder, name)
+            with open(path, "rb") as file:
+                old[path] = file.read()
+            new[path] = change(old[path])
+            self.assertNotEqual(old[path], new[path])
+            row = next(one for one in mended["files"] if one["path"] == name)
+            self.assertEqual((row["sha256"], row["bytes"]), (hashlib.sha256(old[path]).hexdigest(), len(old[path])))
+            row.update(sha256=hashlib.sha256(new[path]).hexdigest(), bytes=len(new[path]))
+        new[record] = sealed(mended)
         try:
-            for where, text in [(path, new), (record, sealed(mended))]:
-                os.remove(where)
-                with open(where, "wb") as file:
-                    file.write(text)
+            self.written(new)
             return self.dgtk("verify", dataset, "--export", folder, status=1).stderr
         finally:
-            for where, text in [(path, old), (record, whole.encode())]:
-                os.remove(where)
-                with open(where, "wb") as file:
-                    file.write(text)
+            self.written(old)
+
+    @staticmethod
+    def written(files):
+        """Puts new files where others lay, which may be linked from elsewhere."""
+        for path, data in files.items():
+            os.remove(path)
+            with open(path, "wb") as file:
+                file.write(data)
 
 
 def sealed(record):

@@ -341,6 +341,10 @@ class Gltf(datasets.ExportCase):
             at = asset.json["bufferViews"][asset.json["accessors"][sampler[key]]["bufferView"]]["byteOffset"]
             change = lambda data, at=at: data[:at + 4] + struct.pack("<f", 0.05) + data[at + 8:]  # noqa: E731
             self.assertIn(says, self.planted(dataset, folder, "scene.bin", change))
+        for change in ({"byteLength": 10**9}, {"byteLength": 10}, {"byteLength": 0}, {"byteStride": 16}, {"byteOffset": 10**9}):
+            self.assertIn("accessor", document(lambda one, change=change: one["bufferViews"][0].update(change)), msg=change)
+        for change in ({"type": "MAT4"}, {"componentType": 5123}, {"count": 1}, {"count": 0}, {"byteOffset": 10**9}):
+            self.assertIn("accessor", document(lambda one, change=change: one["accessors"][0].update(change)), msg=change)
 
 
 if __name__ == "__main__":

@@ -72,25 +72,6 @@ std::string RunLengths::compressed() const
 
 namespace
 {
-/// Ids of a row, whatever its type.
-void idsOf(const Rows& objects, int y, std::vector<std::uint32_t>& ids)
-{
-  const auto width = ids.size();
-  if (objects.type() == PixelType::UInt8 && objects.channels() == 3)
-  {
-    const std::uint8_t* const row = objects.row<std::uint8_t>(y);
-    for (std::size_t x = 0; x < width; ++x)
-    {
-      ids[x] = std::uint32_t(row[3 * x]) << 16 | std::uint32_t(row[3 * x + 1]) << 8 | row[3 * x + 2];
-    }
-    return;
-  }
-  for (std::size_t x = 0; x < width; ++x)
-  {
-    ids[x] = idAt(objects, int(x), y);
-  }
-}
-
 /// Ids of all pixels, column by column.
 std::vector<std::uint32_t> columnsOf(const Rows& objects)
 {
@@ -104,7 +85,10 @@ std::vector<std::uint32_t> columnsOf(const Rows& objects)
     const int count = std::min(together, objects.height() - y);
     for (int i = 0; i < count; ++i)
     {
-      idsOf(objects, y + i, rows[std::size_t(i)]);
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        rows[std::size_t(i)][x] = idAt(objects, int(x), y + i);
+      }
     }
     for (std::size_t x = 0; x < width; ++x)
     {

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkSystem.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
@@ -63,6 +65,22 @@ PovComplaint parse(const std::string& line)
     std::from_chars(number.data(), number.data() + number.size(), complaint.line);
   }
   return complaint;
+}
+
+/// The last line that POV-Ray printed, but for its own farewell; "" when there is none.
+std::string lastWords(const std::string& printed)
+{
+  std::istringstream lines(printed);
+  std::string last;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t begin = line.find_first_not_of(" \r");
+    if (begin != std::string::npos && line.find("POV-Ray finished") == std::string::npos)
+    {
+      last = line.substr(begin, line.find_last_not_of(" \r") + 1 - begin);
+    }
+  }
+  return last;
 }
 
 bool isPicture(const std::string& what)
@@ -179,7 +197,8 @@ void PovRunner::fail(int status, const std::string& printed) const
   {
     const std::string how = status != -1 && WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
                                                                 : "status " + std::to_string(WEXITSTATUS(status));
-    throw MachineError("POV-Ray ended with " + how);
+    const std::string words = lastWords(printed);
+    throw MachineError("POV-Ray ended with " + how + (words.empty() ? "" : ": " + printable(words)));
   }
   const std::string file = complaint.file.empty() ? "POV-Ray" : this->Folder + '/' + complaint.file;
   if (isPicture(complaint.what))

@@ -37,11 +37,7 @@ PictureFile::PictureFile(const std::string& folder, const std::string& file, int
 
 double PictureFile::at(int x, int y, int channel) const { return valueAt(this->Data.pixels, x, y, channel); }
 
-std::uint32_t PictureFile::id(int x, int y) const
-{
-  const auto channel = [&](int c) { return static_cast<std::uint32_t>(this->at(x, y, c)); };
-  return this->channels() >= 3 ? channel(0) << 16 | channel(1) << 8 | channel(2) : channel(0);
-}
+std::uint32_t PictureFile::id(int x, int y) const { return idAt(this->Data.pixels, x, y); }
 
 double PictureFile::rounding(double value) const
 {
