@@ -69,6 +69,20 @@ class WithoutPovRay(Case):
         self.failed(self.fake("kill -9 $$\n"), 4, "POV-Ray ended with signal 9")
         self.failed(self.fake("exit 0\n"), 4, "POV-Ray's picture is not whole")
 
+    def test_it_is_started_again_where_its_thread_did_not_begin(self):
+        """POV-Ray 3.7 gives up after 3 s in which its thread has not begun: on a machine that was halted meanwhile, say."""
+        times = self.path("times")
+        late = f"echo x >> '{times}'\nif [ $(wc -l < '{times}') -lt %d ]; then echo Timed out waiting for worker thread startup >&2; exit 1; fi\n"
+        environment = self.fake(late % 3 + 'exec /usr/bin/povray "$@"\n')
+        self.dgtk("render", SCENE, "-o", self.path("d"), "--renderer", "povray", "--layers", "color", "--cameras", "matrix", "--frames", "0", *SMALL,
+                  environment=environment)
+        with open(times, encoding="ascii") as file:
+            self.assertEqual(file.read(), "x\n" * 3)
+        os.remove(times)
+        self.failed(self.fake(late % 1000), 4, "POV-Ray ended with status 1: Timed out waiting")
+        with open(times, encoding="ascii") as file:
+            self.assertEqual(file.read(), "x\n" * 5)
+
     def test_arguments_reach_it_without_a_shell(self):
         self.failed(self.fake(f"for word in \"$@\"; do echo \"$word\" >> {self.path('words')}; done\nexit 1\n"), 4, "status 1",
                     options=("--pov-antialias", "3"))

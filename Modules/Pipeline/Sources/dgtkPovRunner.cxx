@@ -28,6 +28,11 @@ namespace dgtk
 namespace
 {
 constexpr std::chrono::milliseconds lookEvery{ 5 };
+/// What POV-Ray says when its own thread has not begun within 3 s, as happens where the machine was halted meanwhile,
+/// and may where it misses the word of that thread (vfe/vfesession.cpp, Initialize()). Nothing is
+/// drawn then, and it is started again.
+constexpr const char* notStarted = "Timed out waiting for worker thread startup";
+constexpr int mostStarts = 5;
 /// Settings of the user or the machine are not read: this file is empty.
 constexpr const char* settingsFile = "povray.ini";
 constexpr const char* settingsVariable = "POVINI=";
@@ -211,29 +216,36 @@ void PovRunner::fail(int status, const std::string& printed) const
 
 void PovRunner::run(const std::vector<std::string>& arguments, const std::string& name) const
 {
-  if (this->Cancel && *this->Cancel)
-  {
-    throw MachineError("interrupted");
-  }
   const std::string log = std::filesystem::absolute(this->Folder + '/' + name + ".log").string();
-  const int process = this->start(arguments, log);
-  if (process < 0)
+  for (int starts = mostStarts;; --starts)
   {
-    throw MachineError("POV-Ray cannot be started: " + std::string(std::strerror(errno)));
-  }
-  const int status = this->wait(process);
-  std::error_code error;
-  const std::string printed = status == 0                           ? std::string()
-                              : std::filesystem::exists(log, error) ? readFile(log)
-                                                                    : std::string();
-  std::filesystem::remove(log, error);
-  if (this->Cancel && *this->Cancel)
-  {
-    throw MachineError("interrupted");
-  }
-  if (status != 0)
-  {
-    this->fail(status, printed);
+    if (this->Cancel && *this->Cancel)
+    {
+      throw MachineError("interrupted");
+    }
+    const int process = this->start(arguments, log);
+    if (process < 0)
+    {
+      throw MachineError("POV-Ray cannot be started: " + std::string(std::strerror(errno)));
+    }
+    const int status = this->wait(process);
+    std::error_code error;
+    const std::string printed = status == 0                           ? std::string()
+                                : std::filesystem::exists(log, error) ? readFile(log)
+                                                                      : std::string();
+    std::filesystem::remove(log, error);
+    if (this->Cancel && *this->Cancel)
+    {
+      throw MachineError("interrupted");
+    }
+    if (status == 0)
+    {
+      return;
+    }
+    if (starts == 1 || printed.find(notStarted) == std::string::npos)
+    {
+      this->fail(status, printed);
+    }
   }
 }
 
