@@ -97,8 +97,11 @@ void MovingOccluders::trace(const View& view, const double* frames, const Eigen:
     {
       const ExactRay* const ray = tracer.rayOfLane(i);
       const std::size_t at = first + i;
-      const std::vector<std::uint32_t> near = ray ? this->near(*ray, frames[at]) : std::vector<std::uint32_t>();
-      if (!near.empty())
+      if (!ray)
+      {
+        continue;
+      }
+      if (const std::vector<std::uint32_t> near = this->near(*ray, frames[at]); !near.empty())
       {
         found[at] = this->nearestMoving(near, *ray, frames[at], targets[at], found[at]);
       }

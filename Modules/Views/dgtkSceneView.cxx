@@ -46,7 +46,7 @@ SceneView::SceneView(ViewKind kind, QWidget* parent)
   this->setMouseTracking(true);
   this->setMinimumSize(120, 90);
   this->Camera.frame({}, 1);
-  this->placeCamera();
+  this->SceneView::placeCamera();
 }
 
 SceneView::~SceneView() = default;

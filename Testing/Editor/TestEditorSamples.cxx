@@ -161,14 +161,14 @@ void TestEditorSamples::whatIsRefusedAndLeftOutIsSaid()
   QVERIFY(dialog->findChild<QTreeWidget*>("values")->topLevelItemCount() > 0);
 
   const QByteArray omitted = QByteArray(never).replace("\"attempts\"", R"("otherwise": "omit", "attempts")");
-  dialog = this->opened(this->write("omitted.json", balls(omitted)));
+  this->opened(this->write("omitted.json", balls(omitted)));
   this->waitFor("Sample 0: ");
   QVERIFY2(this->status().endsWith(" 0 cameras; 1 left out"), qPrintable(this->status()));
   QVERIFY(notes->toPlainText().startsWith("cameras/c/require: "));
 
   const QByteArray wrong = balls().replace("[1, 6]", "[6, 1]");
   answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
-  dialog = this->opened(this->write("wrong.json", wrong));
+  this->opened(this->write("wrong.json", wrong));
   this->waitFor(this->path("wrong.json"));
   QVERIFY2(this->status().contains("parameters.n"), qPrintable(this->status()));
   QVERIFY2(!this->status().contains("is refused"), "that is a fault of the file, not of the sample");

@@ -52,10 +52,12 @@ TEST(PixelGrid, NearAreThePixelsWithinHalfAStep)
   {
     const PixelGrid grid(*makeView(options).model, step);
     std::size_t most = 0;
-    for (double y = -8; y <= 22; y += 0.25)
+    for (int j = -32; j <= 88; ++j)
     {
-      for (double x = -8; x <= 29; x += 0.25)
+      for (int i = -32; i <= 116; ++i)
       {
+        const double x = 0.25 * i;
+        const double y = 0.25 * j;
         std::set<std::pair<int, int>> expected;
         for (int row = 0; row < grid.rows(); ++row)
         {

@@ -78,9 +78,9 @@ protected:
 Columns every(double first, double step)
 {
   Columns columns;
-  for (double x = first; x < width; x += step)
+  for (int i = 0; first + i * step < width; ++i)
   {
-    if (x >= namesWidth)
+    if (const double x = first + i * step; x >= namesWidth)
     {
       columns.push_back(int(x));
     }

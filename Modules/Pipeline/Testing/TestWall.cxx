@@ -223,10 +223,12 @@ TEST_F(Wall, PointsAreSeenOnce)
   std::vector<std::vector<double>> expected; // x, y, then camera and column of each sight
   for (int own = 0; own < 3; ++own)
   {
-    for (double v = 4.5; v < wallHeight; v += 8)
+    for (int j = 4; j < wallHeight; j += 8)
     {
-      for (double u = 4.5; u < wallWidth; u += 8)
+      for (int i = 4; i < wallWidth; i += 8)
       {
+        const double u = i + 0.5;
+        const double v = j + 0.5;
         const double x = (u - 16) / focal * depth + places[own];
         std::vector<double> point{ x, (12 - v) / focal * depth, double(own), u };
         bool earlier = false;

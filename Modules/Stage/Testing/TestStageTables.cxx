@@ -56,38 +56,38 @@ TEST(StageTables, MomentsOfSequences)
   {
     const char* format;
     int animation;
-    double start, offset, rate;
     bool loop;
+    double start, offset, rate;
     double frame;           ///< of the scene, 20 a second
     double expected, onWay; ///< model frame; part of the way from the last frame to the first
   };
   const Row rows[] = {
-    { "md2", 0, 0, 0, 1, true, 0, 4, 0 },
-    { "md2", 0, 0, 0, 1, true, 5, 6.5, 0 },
-    { "md2", 0, 0, 0, 1, true, 6, 7, 0 },
-    { "md2", 0, 0, 0, 1, true, 7, 7, 0.5 },
-    { "md2", 0, 0, 0, 1, true, 8, 4, 0 },
-    { "md2", 0, 0, 0, 1, true, 13, 6.5, 0 },
-    { "gltf", 0, 0, 0, 1, true, 5, 6.5, 0 },
-    { "gltf", 0, 0, 0, 1, true, 6, 4, 0 },
-    { "gltf", 0, 0, 0, 1, true, 7, 4.5, 0 },
-    { "md2", 0, 0, 0, 1, false, 5, 6.5, 0 },
-    { "md2", 0, 0, 0, 1, false, 7, 7, 0 },
-    { "gltf", 0, 0, 0, 1, false, 700, 7, 0 },
-    { "md2", 0, 10, 0, 1, true, 3, 4, 0 },
-    { "md2", 0, 10, 0, 1, true, 13, 5.5, 0 },
-    { "md2", 0, 10, 1.5, 1, true, 0, 5.5, 0 },
-    { "md2", 0, 10, 1.5, 1, true, 12, 6.5, 0 },
-    { "md2", 0, 10, 1.5, 1, true, 14, 7, 0.5 },
-    { "md2", 0, 0, 5, 1, true, 0, 5, 0 },
-    { "md2", 0, 0, 5, 1, false, 0, 7, 0 },
-    { "md2", 0, 0, 0, 4, true, 1, 6, 0 },
-    { "md2", 0, 0, 0.5, 0, true, 99, 4.5, 0 },
-    { "md2", 1, 0, 0, 1, true, 1, 8.5, 0 },
-    { "md2", 1, 0, 0, 1, true, 3, 9, 0.5 },
-    { "gltf", 1, 0, 0, 1, true, 2, 8, 0 },
-    { "md2", 2, 0, 0, 1, true, 5, 10, 0 },
-    { "md2", 2, 0, 0, 1, false, 5, 10, 0 },
+    { "md2", 0, true, 0, 0, 1, 0, 4, 0 },
+    { "md2", 0, true, 0, 0, 1, 5, 6.5, 0 },
+    { "md2", 0, true, 0, 0, 1, 6, 7, 0 },
+    { "md2", 0, true, 0, 0, 1, 7, 7, 0.5 },
+    { "md2", 0, true, 0, 0, 1, 8, 4, 0 },
+    { "md2", 0, true, 0, 0, 1, 13, 6.5, 0 },
+    { "gltf", 0, true, 0, 0, 1, 5, 6.5, 0 },
+    { "gltf", 0, true, 0, 0, 1, 6, 4, 0 },
+    { "gltf", 0, true, 0, 0, 1, 7, 4.5, 0 },
+    { "md2", 0, false, 0, 0, 1, 5, 6.5, 0 },
+    { "md2", 0, false, 0, 0, 1, 7, 7, 0 },
+    { "gltf", 0, false, 0, 0, 1, 700, 7, 0 },
+    { "md2", 0, true, 10, 0, 1, 3, 4, 0 },
+    { "md2", 0, true, 10, 0, 1, 13, 5.5, 0 },
+    { "md2", 0, true, 10, 1.5, 1, 0, 5.5, 0 },
+    { "md2", 0, true, 10, 1.5, 1, 12, 6.5, 0 },
+    { "md2", 0, true, 10, 1.5, 1, 14, 7, 0.5 },
+    { "md2", 0, true, 0, 5, 1, 0, 5, 0 },
+    { "md2", 0, false, 0, 5, 1, 0, 7, 0 },
+    { "md2", 0, true, 0, 0, 4, 1, 6, 0 },
+    { "md2", 0, true, 0, 0.5, 0, 99, 4.5, 0 },
+    { "md2", 1, true, 0, 0, 1, 1, 8.5, 0 },
+    { "md2", 1, true, 0, 0, 1, 3, 9, 0.5 },
+    { "gltf", 1, true, 0, 0, 1, 2, 8, 0 },
+    { "md2", 2, true, 0, 0, 1, 5, 10, 0 },
+    { "md2", 2, false, 0, 0, 1, 5, 10, 0 },
   };
   for (const Row& row : rows)
   {

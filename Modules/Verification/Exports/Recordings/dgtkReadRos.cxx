@@ -388,7 +388,11 @@ void RosReferee::baseline(const ExportedName& name, double metres)
   {
     const CameraRecord* other =
       entry.second->frame == name.frame ? source.camera(entry.second->camera, name.frame) : nullptr;
-    const double apart = other && other->name != name.camera ? rightwards(*other, *own, this->Metres) : 0;
+    if (!other || other->name == name.camera)
+    {
+      continue;
+    }
+    const double apart = rightwards(*other, *own, this->Metres);
     if (apart > 0 && std::abs(apart - metres) < std::abs(nearest - metres))
     {
       nearest = apart;
