@@ -29,8 +29,8 @@ namespace
 {
 constexpr std::chrono::milliseconds lookEvery{ 5 };
 /// What POV-Ray says when its own thread has not begun within 3 s, as happens where the machine was halted meanwhile,
-/// and may where it misses the word of that thread (vfe/vfesession.cpp, Initialize()). Nothing is
-/// drawn then, and it is started again.
+/// and may where it misses the word of that thread (vfe/vfesession.cpp, Initialize()). Nothing is drawn then, and it is
+/// started again.
 constexpr const char* notStarted = "Timed out waiting for worker thread startup";
 constexpr int mostStarts = 5;
 /// Settings of the user or the machine are not read: this file is empty.

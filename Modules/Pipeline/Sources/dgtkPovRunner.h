@@ -32,9 +32,9 @@ public:
   /// `cancel`: ends processes when it becomes true; may be null.
   PovRunner(std::string program, std::string folder, const std::atomic<bool>* cancel);
 
-  /// Runs with `arguments` in the folder and waits. What it prints goes to <folder>/<name>.log, which is removed.
-  /// Throws MachineError, with file and line, when it fails; InputError when it fails on a picture; MachineError also
-  /// when cancelled.
+  /// Runs with `arguments` in the folder and waits; starts it again, a few times, where its own threads did not begin
+  /// in time. What it prints goes to <folder>/<name>.log, which is removed. Throws MachineError, with file and line,
+  /// when it fails; InputError when it fails on a picture; MachineError also when cancelled.
   void run(const std::vector<std::string>& arguments, const std::string& name) const;
 
   const std::string& folder() const { return this->Folder; }
