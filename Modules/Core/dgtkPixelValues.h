@@ -34,18 +34,6 @@ inline double valueAt(const Rows& rows, int x, int y, int channel = 0)
   return withPixelType(rows.type(), [&](auto type) { return double(rows.row<decltype(type)>(y)[i]); });
 }
 
-/// An id per pixel of a layer of ids, whatever its file; 24 bits of R, G, B where it has three channels.
-inline std::uint32_t idAt(const Rows& rows, int x, int y)
-{
-  if (rows.type() == PixelType::UInt8 && rows.channels() == 3) // what they usually are
-  {
-    const std::uint8_t* const pixel = rows.row<std::uint8_t>(y) + 3 * std::size_t(x);
-    return std::uint32_t(pixel[0]) << 16 | std::uint32_t(pixel[1]) << 8 | pixel[2];
-  }
-  const auto channel = [&](int c) { return static_cast<std::uint32_t>(valueAt(rows, x, y, c)); };
-  return rows.channels() >= 3 ? channel(0) << 16 | channel(1) << 8 | channel(2) : channel(0);
-}
-
 /// `count` channels from the first of pixel (x, y) on as numbers.
 inline void copyValues(const Rows& rows, int x, int y, std::size_t count, double* to)
 {
@@ -58,6 +46,26 @@ inline void copyValues(const Rows& rows, int x, int y, std::size_t count, double
         to[i] = double(from[i]);
       }
     });
+}
+
+/// An id from the channels of its pixel as numbers: 24 bits of R, G, B where there are three or more.
+inline std::uint32_t idOf(const double* values, std::size_t channels)
+{
+  return static_cast<std::uint32_t>(channels >= 3 ? values[0] * 65536 + values[1] * 256 + values[2] : values[0]);
+}
+
+/// The id of a pixel of a layer of ids, whatever its file.
+inline std::uint32_t idAt(const Rows& rows, int x, int y)
+{
+  if (rows.type() == PixelType::UInt8 && rows.channels() == 3) // what they usually are
+  {
+    const std::uint8_t* const pixel = rows.row<std::uint8_t>(y) + 3 * std::size_t(x);
+    return std::uint32_t(pixel[0]) << 16 | std::uint32_t(pixel[1]) << 8 | pixel[2];
+  }
+  double values[3] = { 0, 0, 0 };
+  const auto channels = std::size_t(rows.channels());
+  copyValues(rows, x, y, channels < 3 ? channels : 3, values);
+  return idOf(values, channels);
 }
 
 } // namespace dgtk

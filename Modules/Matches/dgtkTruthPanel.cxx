@@ -3,6 +3,7 @@
 
 #include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
+#include "dgtkPixelValues.h"
 #include "dgtkText.h"
 
 #include <QApplication>
@@ -153,7 +154,7 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
     if (coverage)
     {
       const std::vector<double>& v = value.values;
-      text = tr("id %1, coverage %2 / 255").arg(v[0] * 65536 + v[1] * 256 + v[2]).arg(v[3]);
+      text = tr("id %1, coverage %2 / 255").arg(idOf(v.data(), v.size())).arg(v[3]);
     }
     const QString separator = what.size() + unit.size() > mostInALine ? QStringLiteral(",\n") : QStringLiteral(", ");
     this->setRow(bare ? what : what + separator + unit, text, toText(value.spec.description));

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 namespace
 {
 using dgtk::PixelType;
@@ -21,28 +19,25 @@ dgtk::Rows counted(PixelType type, int channels)
   return rows;
 }
 
+/// Of three channels, counted.
+void expectNumbers(const dgtk::Rows& rows)
+{
+  EXPECT_EQ(dgtk::valueAt(rows, 0, 5), 1);
+  EXPECT_EQ(dgtk::valueAt(rows, 1, 5, 2), 6);
+  EXPECT_EQ(dgtk::valueAt(rows, 1, 6, 1), 11);
+  double values[2] = { 0, 0 };
+  dgtk::copyValues(rows, 0, 6, 2, values);
+  EXPECT_EQ(values[0], 7);
+  EXPECT_EQ(values[1], 8);
+}
+
 TEST(PixelValues, ChannelsOfEachTypeAreNumbers)
 {
-  const std::vector<dgtk::Rows> all = []
-  {
-    std::vector<dgtk::Rows> made;
-    made.push_back(counted<std::uint8_t>(PixelType::UInt8, 3));
-    made.push_back(counted<std::uint16_t>(PixelType::UInt16, 3));
-    made.push_back(counted<std::uint32_t>(PixelType::UInt32, 3));
-    made.push_back(counted<float>(PixelType::Float32, 3));
-    made.push_back(counted<double>(PixelType::Float64, 3));
-    return made;
-  }();
-  for (const dgtk::Rows& rows : all)
-  {
-    EXPECT_EQ(dgtk::valueAt(rows, 0, 5), 1);
-    EXPECT_EQ(dgtk::valueAt(rows, 1, 5, 2), 6);
-    EXPECT_EQ(dgtk::valueAt(rows, 1, 6, 1), 11);
-    double values[2] = { 0, 0 };
-    dgtk::copyValues(rows, 0, 6, 2, values);
-    EXPECT_EQ(values[0], 7);
-    EXPECT_EQ(values[1], 8);
-  }
+  expectNumbers(counted<std::uint8_t>(PixelType::UInt8, 3));
+  expectNumbers(counted<std::uint16_t>(PixelType::UInt16, 3));
+  expectNumbers(counted<std::uint32_t>(PixelType::UInt32, 3));
+  expectNumbers(counted<float>(PixelType::Float32, 3));
+  expectNumbers(counted<double>(PixelType::Float64, 3));
 }
 
 TEST(PixelValues, ThreeChannelsAreTheBytesOfAnIdWhateverTheirType)

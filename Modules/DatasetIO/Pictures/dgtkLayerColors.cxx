@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLayerColors.h"
 
+#include "dgtkPixelValues.h"
 #include "dgtkPortableMath.h"
 
 #include <algorithm>
@@ -126,10 +127,7 @@ double LayerColors::unit(double value, int channel) const
   return high > low ? (value - low) / (high - low) : 0.5;
 }
 
-std::uint32_t LayerColors::id(const double* v) const
-{
-  return static_cast<std::uint32_t>(this->Channels >= 3 ? v[0] * 65536 + v[1] * 256 + v[2] : v[0]);
-}
+std::uint32_t LayerColors::id(const double* v) const { return idOf(v, std::size_t(this->Channels)); }
 
 Rgb LayerColors::picture(const double* v) const
 {

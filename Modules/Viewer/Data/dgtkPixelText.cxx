@@ -5,6 +5,7 @@
 #include "dgtkEditorLanguage.h"
 #include "dgtkError.h"
 #include "dgtkPictureColors.h"
+#include "dgtkPixelValues.h"
 
 #include <QCoreApplication>
 
@@ -82,8 +83,7 @@ std::string ldiText(const PictureValues& picture, std::size_t pixel)
 std::string idText(const DatasetPictures& dataset, const PictureValues& picture, const std::vector<double>& values)
 {
   const LayerSpec& spec = picture.layer.spec;
-  const bool three = values.size() >= 3;
-  const auto id = static_cast<std::uint32_t>(three ? values[0] * 65536 + values[1] * 256 + values[2] : values[0]);
+  const std::uint32_t id = idOf(values.data(), values.size());
   if (!spec.invalid.empty() && spec.invalid != "0" && std::to_string(id) == spec.invalid)
   {
     return nothingText();
