@@ -120,8 +120,7 @@ const Sample& DepthSensor::Impl::seenFrom(int x, int y, const Sample& own) const
   const auto n = this->Lateral.normals(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0);
   const auto shift = [sigma](double normal)
   { return static_cast<int>(std::floor(sigma * std::min(std::max(normal, -widest), widest) + 0.5)); };
-  const auto held = [this](int s) { return std::min(std::max(s, -this->Halo), this->Halo); };
-  return this->sampleAt(x + held(shift(n[0])), y + held(shift(n[1])));
+  return this->sampleAt(x + shift(n[0]), y + shift(n[1])); // within the halo, which is that of the largest sigma
 }
 
 double DepthSensor::Impl::blurred(const Sample& seen, int x, int y) const

@@ -72,7 +72,7 @@ PointSpread::PointSpread(const PointSpreadParameters& parameters)
   else if (!parameters.kernel.empty())
   {
     this->Separable = false;
-    this->Radius = (static_cast<int>(std::sqrt(double(parameters.kernel.size())) + 0.5) - 1) / 2;
+    this->Radius = (static_cast<int>(std::sqrt(double(parameters.kernel.size()))) - 1) / 2;
     // A convolution turns the kernel over.
     this->Weights.assign(parameters.kernel.rbegin(), parameters.kernel.rend());
   }

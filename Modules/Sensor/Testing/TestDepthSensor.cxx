@@ -82,6 +82,18 @@ TEST(DepthSensor, AxialNoiseIsThatOfThePaper)
   }
 }
 
+// The paper has angles from 10 to 82 degrees: near 90 its formulas would have no bound.
+TEST(DepthSensor, NoiseOfSteepSurfacesIsBounded)
+{
+  const double sixty = 60 * 0.0174532925199432957692;
+  EXPECT_GT(kinectAxialSigma(1, sixty), kinectAxialSigma(1, sixty * 0.999)) << "steep from 60 degrees on";
+  for (const double angle : { 86.0, 89.9, 90.0 })
+  {
+    EXPECT_NEAR(kinectLateralSigma(angle * degree), 0.8 + 0.035 * 85 / 5, 1e-9);
+    EXPECT_NEAR(kinectAxialSigma(2.25, angle * degree), 0.0012 + 0.0019 * 1.85 * 1.85 + 0.0001 / 1.5 * 17 * 17, 1e-9);
+  }
+}
+
 TEST(DepthSensor, LateralNoiseMovesAnEdgeAsThePaperSays)
 {
   DepthSensorParameters p;
@@ -249,6 +261,20 @@ TEST(DepthSensor, RangeAndInvalidity)
     ASSERT_TRUE(depth[i] == infinity || (i % 2 == 0 && depth[i] >= 2 && depth[i] <= 4));
   }
   EXPECT_NEAR(2 * validPart(depth) / (1 - 2 * normalBelow(-2)), 1, onePercent);
+}
+
+TEST(DepthSensor, TheEndsOfTheRangeAreMeasured)
+{
+  DepthSensorParameters p;
+  p.least = p.most = 2;
+  EXPECT_EQ(validPart(measure(setupOf(p), plane(2))), 1);
+  EXPECT_EQ(validPart(measure(setupOf(p), plane(std::nextafter(2, 1)))), 0);
+  EXPECT_EQ(validPart(measure(setupOf(p), plane(std::nextafter(2, 3)))), 0);
+  p.least = p.most = 0; // no limits: only what noise moves behind the camera is gone
+  p.gaussian = { 1, 0, 0 };
+  const std::vector<double> depth = measure(setupOf(p), plane(1));
+  EXPECT_GT(*std::min_element(depth.begin(), depth.end()), 0);
+  EXPECT_NEAR(validPart(depth) / (1 - normalBelow(-1)), 1, onePercent);
 }
 
 TEST(DepthSensor, RowsTogetherOrApartAndThreadsGiveTheSameBytes)

@@ -4,6 +4,7 @@
 #include "dgtkSensorRuns.h"
 #include "dgtkTestSupport.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <OpenImageIO/imageio.h>
@@ -100,6 +101,19 @@ double meanSquare(const Bytes& a, const Bytes& b)
   }
   return sum;
 }
+
+ImageSensorSetup partsOf(const ColorSensorParameters& parameters)
+{
+  ImageSensorSetup setup;
+  setup.parameters = parameters;
+  setup.key = { 11, 0, 0 };
+  return setup;
+}
+
+auto evenly(double level)
+{
+  return [level](int, int, int) { return level; };
+}
 } // namespace
 
 TEST(JpegArtefacts, AreThoseOfLibjpeg)
@@ -125,6 +139,23 @@ TEST(JpegArtefacts, AreThoseOfLibjpeg)
     EXPECT_LT(meanDifference(throughOwn(color, width, height, quality, true),
                 throughLibjpeg(color, width, height, quality, "4:2:0")),
       3);
+  }
+}
+
+// T.81: of a grey block there is the mean times 8, in steps of 16, as scaled for the quality, 255 at most.
+TEST(JpegArtefacts, GreyLevelsAreThoseOfTheQuality)
+{
+  for (const auto& [quality, step] : { std::pair(1, 255), { 3, 255 }, { 4, 200 }, { 25, 32 }, { 50, 16 }, { 75, 8 } })
+  {
+    const int halfway = step / 16;
+    for (const int grey : { 128 + halfway - 1, 128 + halfway + 1, 40, 100, 255 })
+    {
+      const double level = std::round((grey - 128) * 8.0 / step) * step / 8 + 128;
+      const auto expected = static_cast<unsigned char>(std::floor(std::clamp(level, 0.0, 255.0) + 0.5));
+      EXPECT_EQ(throughOwn(Bytes(8 * 8 * 3, static_cast<unsigned char>(grey)), 8, 8, quality, false),
+        Bytes(8 * 8 * 3, expected))
+        << quality << ' ' << grey;
+    }
   }
 }
 
@@ -229,16 +260,16 @@ TEST(ImageSensor, ThePictureIsCodedLast)
 {
   const CounterRandom random(5, 99, 0, 0);
   const auto noise = [&](int x, int y, int c) { return random.uniform(x, y, c); };
-  for (const bool full : { false, true })
+  for (const auto& [quality, full] : { std::pair(60, false), { 60, true }, { 1, false } })
   {
     ImageSensorSetup setup;
     setup.parameters = defaultColorSensor();
     setup.width = 37;
     setup.height = 43;
     const std::vector<float> plain = expose(setup, noise, 10);
-    setup.parameters.jpegQuality = 60;
+    setup.parameters.jpegQuality = quality;
     setup.parameters.jpegFullChroma = full;
-    const sensor::JpegArtefacts jpeg(60, !full);
+    const sensor::JpegArtefacts jpeg(quality, !full);
     std::vector<float> coded;
     const auto values = std::ptrdiff_t(3) * setup.width;
     for (int y = 0; y < setup.height; y += jpeg.blockRows())
@@ -256,6 +287,81 @@ TEST(ImageSensor, ThePictureIsCodedLast)
     }
     EXPECT_NE(coded, plain);
     EXPECT_EQ(expose(setup, noise, 10), coded) << full;
+  }
+}
+
+// At the border neighbours are mirrored: those of a colour are of that colour, also in the smallest images.
+TEST(ImageSensor, BordersOfAMosaicHaveTheirColours)
+{
+  ImageSensorSetup setup = partsOf(idealLinear());
+  for (const auto& [width, height] : { std::pair(2, 2), { 5, 2 }, { 2, 3 }, { 6, 5 } })
+  {
+    setup.width = width;
+    setup.height = height;
+    for (const auto pattern : { BayerPattern::RGGB, BayerPattern::BGGR, BayerPattern::GRBG, BayerPattern::GBRG })
+    {
+      setup.parameters.bayer = pattern;
+      const std::vector<float> image = expose(setup, [](int, int, int c) { return 0.25 * (c + 1); });
+      for (std::size_t i = 0; i < image.size(); ++i)
+      {
+        ASSERT_NEAR(image[i], 0.25 * double(i % 3 + 1), 1e-6) << width << 'x' << height << " value " << i;
+      }
+    }
+  }
+  setup.width = setup.height = 1; // one photosite
+  EXPECT_THAT(expose(setup, evenly(0.5)), testing::Each(testing::FloatNear(0.5f, 1e-6f)));
+}
+
+// Light is not negative: what texture adds to a corner that a lens leaves dark is seen there.
+TEST(ImageSensor, CornersBeyondTheVignetteAreBlack)
+{
+  ImageSensorSetup setup = partsOf(idealLinear());
+  setup.width = setup.height = 16;
+  setup.parameters.texture.amplitude = 0.3;
+  setup.parameters.texture.period = 3;
+  setup.parameters.texture.multiplicative = false;
+  const std::vector<float> unlit = expose(setup, evenly(0));
+  EXPECT_GT(*std::max_element(unlit.begin(), unlit.end()), 0.05F);
+  setup.parameters.vignetting.polynomial = { -16, 0, 0 }; // nothing from a quarter of the radius on
+  const std::vector<float> lit = expose(setup, evenly(0.5));
+  for (int i = 0; i < 16 * 16; ++i)
+  {
+    const double dx = i % 16 - 7.5;
+    const double dy = i / 16 - 7.5; // NOLINT: of the row
+    const bool dark = (dx * dx + dy * dy) / 128 > 1.0 / 16;
+    ASSERT_GE(lit[std::size_t(i) * 3], unlit[std::size_t(i) * 3]) << i;
+    ASSERT_TRUE(!dark || lit[std::size_t(i) * 3] == unlit[std::size_t(i) * 3]) << i;
+  }
+}
+
+TEST(ImageSensor, TextureIsOfTheLightOrAddedToIt)
+{
+  ImageSensorSetup setup = partsOf(idealLinear());
+  setup.width = setup.height = 12;
+  setup.parameters.texture.amplitude = 0.1;
+  setup.parameters.texture.period = 3;
+  for (const bool multiplicative : { true, false })
+  {
+    setup.parameters.texture.multiplicative = multiplicative;
+    const std::vector<float> bright = expose(setup, evenly(0.8));
+    const std::vector<float> dim = expose(setup, evenly(0.4));
+    for (std::size_t i = 0; i < bright.size(); ++i)
+    {
+      ASSERT_NEAR(bright[i], multiplicative ? 2 * dim[i] : dim[i] + 0.4, 1e-6) << i;
+    }
+  }
+}
+
+TEST(ImageSensor, OneBitIsBlackOrWhite)
+{
+  ImageSensorSetup setup = partsOf(idealLinear());
+  setup.width = 101;
+  setup.height = 1;
+  setup.parameters.bits = 1;
+  const std::vector<float> image = expose(setup, [](int x, int, int) { return x / 100.0 + 0.001; });
+  for (std::size_t x = 0; x < 101; ++x)
+  {
+    EXPECT_EQ(image[3 * x], x < 50 ? 0.0F : 1.0F) << x;
   }
 }
 
