@@ -203,7 +203,6 @@ std::shared_ptr<const CameraModel> finerCamera(const CameraModel& model, int tim
     return nullptr;
   }
   CameraParameters finer = model.parameters();
-  finer.rollingShutter = {};
   finer.width *= times;
   finer.height *= times;
   finer.K->topRows<2>() *= times;

@@ -54,11 +54,10 @@ Header readHeader(const std::string& path, const std::string& file)
   const std::string shown = text.substr(0, text.find_last_not_of(" \n") + 1);
   char type = 0;
   int bytes = 0;
-  char order = 0;
   int read = 0;
-  if (std::sscanf(text.c_str(), "{'descr': '<%c%d', 'fortran_order': %calse, 'shape': (%d, %d, %d), }%n", &type, &bytes,
-        &order, &header.rows, &header.columns, &header.channels, &read) != 6 ||
-      read == 0 || type != 'f' || (bytes != 4 && bytes != 8) || order != 'F' || header.rows < 2 || header.columns < 2 ||
+  if (std::sscanf(text.c_str(), "{'descr': '<%c%d', 'fortran_order': False, 'shape': (%d, %d, %d), }%n", &type, &bytes,
+        &header.rows, &header.columns, &header.channels, &read) != 5 ||
+      read == 0 || type != 'f' || (bytes != 4 && bytes != 8) || header.rows < 2 || header.columns < 2 ||
       header.rows > mostSide || header.columns > mostSide)
   {
     fail(path, quoted(shown));

@@ -341,6 +341,12 @@ TEST(CameraRefusals, NameWhatIsWrong)
   EXPECT_THAT(messageOf([] { dgtk::makePinhole(9, 9, matrixK(-5, 1, 0, 0, 0)); }), HasSubstr("found -5, 1"));
   EXPECT_THAT(messageOf([] { dgtk::makePinhole(9, 9, 2 * Eigen::Matrix3d::Identity()); }),
     HasSubstr("[fx s cx; 0 fy cy; 0 0 1]"));
+  for (const auto& [row, column] : { std::pair(1, 0), { 2, 0 }, { 2, 1 } })
+  {
+    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+    K(row, column) = 0.5;
+    EXPECT_THAT(messageOf([&] { dgtk::makePinhole(9, 9, K); }), HasSubstr("[fx s cx; 0 fy cy; 0 0 1]")) << row;
+  }
   EXPECT_THAT(messageOf([] { dgtk::makeOrthographic(9, 9, 0, 0); }), HasSubstr("view height"));
   EXPECT_THAT(messageOf([] { dgtk::lookAtPose({ 1, 2, 3 }, { 1, 2, 3 }, { 0, 1, 0 }); }), HasSubstr("coincide"));
   EXPECT_THAT(messageOf([] { dgtk::lookAtPose({ 0, 0, 0 }, { 0, 4, 0 }, { 0, 1, 0 }); }), HasSubstr("parallel"));
@@ -363,6 +369,17 @@ TEST(LookAtPose, TheLengthOfUpMeansNothing)
     const dgtk::Rigid3 found = dgtk::lookAtPose({ 3, -2, 7 }, { -1, 0.5, 0.25 }, { 0, length, 0 });
     EXPECT_LE((found.rotation - expected.rotation).norm(), 1e-15) << length;
   }
+}
+
+TEST(LookAtPose, UpMayBeAlmostParallelToTheView)
+{
+  const dgtk::Rigid3 pose = dgtk::lookAtPose({ 0, 0, 0 }, { 0, 4, 0 }, { 0, 1, 1e-9 });
+  EXPECT_LE((pose.rotation.row(1).transpose() - Eigen::Vector3d(0, 0, -1)).norm(), 1e-9);
+  EXPECT_THAT(messageOf(
+                [] {
+                  dgtk::lookAtPose({ 0, 0, 0 }, { 0, 4, 0 }, { 0, 1, 1e-13 });
+                }),
+    testing::HasSubstr("parallel"));
 }
 
 TEST(RecordedCamera, IsTheOneThatWasRecorded)

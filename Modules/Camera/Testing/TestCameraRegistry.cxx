@@ -97,6 +97,18 @@ TEST(CameraRegistry, CamerasAreMadeAgainOfTheirParameters)
   EXPECT_EQ(makeCamera("orthographic", parallel->parameters())->linear()->K, parallel->linear()->K);
 }
 
+TEST(CameraRegistry, CamerasOfOneLensMayRollOrNot)
+{
+  CameraParameters of{ 64, 48, std::nullopt, { { "fovY", { 51 } } } };
+  EXPECT_FALSE(makeCamera("pinhole", of)->rolls());
+  of.rollingShutter = { 0.5, RollingShutter::Direction::Left };
+  EXPECT_EQ(makeCamera("pinhole", of)->times().last, 0.25);
+  of.rollingShutter.duration = 1;
+  EXPECT_EQ(makeCamera("pinhole", of)->times().last, 0.5);
+  of.rollingShutter.duration = 0;
+  EXPECT_FALSE(makeCamera("pinhole", of)->rolls());
+}
+
 TEST(CameraRegistry, RefusesWhatTheRowsDoNotSay)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();

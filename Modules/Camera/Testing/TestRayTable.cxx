@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
 #include <limits>
 
 using namespace dgtk;
@@ -148,6 +150,94 @@ TEST_F(RayTables, AreReadAnewWhenTheyHaveChanged)
   EXPECT_NE(this->camera(4, 3)->rayThrough({ 3, 2 }).direction, before->rayThrough({ 3, 2 }).direction);
 }
 
+TEST_F(RayTables, OfTheSameSizeAreReadAnewToo)
+{
+  const auto path = this->Folder.path("rays.npy");
+  const auto right = [this] { return this->camera(4, 3)->rayThrough({ 3, 2 }).direction.x(); };
+  this->write(3, 4, 3, this->plane());
+  const double before = right();
+  const auto time = std::filesystem::last_write_time(path);
+  std::vector<double> numbers = this->plane();
+  for (std::size_t i = 0; i < numbers.size(); i += 3)
+  {
+    numbers[i] = -numbers[i];
+  }
+  this->write(3, 4, 3, numbers);
+  std::filesystem::last_write_time(path, time + std::chrono::seconds(1));
+  EXPECT_EQ(right(), -before);
+  // as old, but longer
+  numbers.insert(numbers.end(), numbers.end() - 12, numbers.end());
+  numbers[3 * 12 + 9] = 7;
+  this->write(4, 4, 3, numbers);
+  std::filesystem::last_write_time(path, time + std::chrono::seconds(1));
+  EXPECT_NE(
+    this->camera(4, 4)->rayThrough({ 3.5, 3.5 }).direction, this->camera(4, 4)->rayThrough({ 3.5, 2.5 }).direction);
+}
+
+/// A file as numpy.save() may write it: `version` 1 has two bytes for the length of its header, 2 and 3 four.
+TEST_F(RayTables, AreOfAnyVersionAndPrecision)
+{
+  int written = 0;
+  const auto writeAs = [this, &written](
+                         char version, const std::string& type, const std::string& order, const auto& numbers)
+  {
+    std::string header = "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (3, 4, 3), }";
+    header.resize(127, ' ');
+    header += '\n';
+    const std::string length{ char(header.size()), 0, 0, 0 };
+    writeFile(this->Folder.path("rays.npy"),
+      std::string("\x93NUMPY") + version + '\0' + length.substr(0, version == 1 ? 2 : 4) + header +
+        std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(numbers[0])));
+    const auto path = this->Folder.path("rays.npy"); // each a second younger, however fast they are written
+    std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(++written));
+  };
+  const std::vector<double> wide = this->plane();
+  const std::vector<float> narrow(wide.begin(), wide.end());
+  const auto expectPlane = [this]
+  {
+    const CameraRay ray = this->camera(4, 3)->rayThrough({ 3.5, 0.5 });
+    EXPECT_LE((ray.direction - Eigen::Vector3d(1.5, -1, 2).normalized()).norm(), 1e-15);
+  };
+  for (const char version : { 1, 2, 3 })
+  {
+    writeAs(version, "<f8", "False", wide);
+    expectPlane();
+    writeAs(version, "<f4", "False", narrow);
+    expectPlane();
+  }
+  const std::vector<std::uint16_t> half(36, 0x3c00);
+  writeAs(1, "<f2", "False", half);
+  EXPECT_THAT(this->refusal(), HasSubstr("'<f2'"));
+  writeAs(1, "<i4", "False", narrow);
+  EXPECT_THAT(this->refusal(), HasSubstr("'<i4'"));
+  writeAs(1, ">f4", "False", narrow);
+  EXPECT_THAT(this->refusal(), HasSubstr("'>f4'"));
+  writeAs(1, "<f8", "True", wide);
+  EXPECT_THAT(this->refusal(), HasSubstr("'fortran_order': True"));
+  writeAs(4, "<f8", "False", wide);
+  EXPECT_THAT(this->refusal(), HasSubstr("no NumPy file"));
+}
+
+// Parts of parts of a table are as large as all that is in them.
+TEST_F(RayTables, FindPointsJustBeforeTheirOrigins)
+{
+  std::vector<double> numbers;
+  for (int i = 0; i < 21 * 19; ++i)
+  {
+    numbers.insert(numbers.end(), { double(i % 21), double(i / 21), 0, 0, 0, 1 }); // NOLINT: a parallel projection
+  }
+  this->write(19, 21, 6, numbers);
+  const auto camera = this->camera(21, 19);
+  for (int i = 0; i < 21 * 19; ++i)
+  {
+    const Eigen::Vector2d at(i % 21, i / 21); // NOLINT: of the row
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(camera->project({ at.x(), at.y(), 1e-3 }, pixel)) << at.transpose();
+    ASSERT_LE((pixel - at - Eigen::Vector2d(0.5, 0.5)).norm(), 1e-9);
+    ASSERT_FALSE(camera->project({ at.x(), at.y(), -1e-3 }, pixel)) << "behind";
+  }
+}
+
 TEST_F(RayTables, RefuseWhatIsNone)
 {
   const std::string path = this->Folder.path("rays.npy");
@@ -164,4 +254,8 @@ TEST_F(RayTables, RefuseWhatIsNone)
   timed[3] = 1e4;
   this->write(3, 4, 4, timed);
   EXPECT_THAT(this->refusal(), HasSubstr("a time of 10000 frames (expected -1000 to 1000)"));
+  timed[3] = -1000;
+  this->write(3, 4, 4, timed);
+  std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(1));
+  EXPECT_EQ(this->camera(4, 3)->times().first, -1000);
 }
