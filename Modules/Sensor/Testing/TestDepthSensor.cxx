@@ -271,6 +271,7 @@ TEST(DepthSensor, TheEndsOfTheRangeAreMeasured)
   EXPECT_EQ(validPart(measure(setupOf(p), plane(std::nextafter(2, 1)))), 0);
   EXPECT_EQ(validPart(measure(setupOf(p), plane(std::nextafter(2, 3)))), 0);
   p.least = p.most = 0; // no limits: only what noise moves behind the camera is gone
+  EXPECT_EQ(validPart(measure(setupOf(p), plane(0))), 0);
   p.gaussian = { 1, 0, 0 };
   const std::vector<double> depth = measure(setupOf(p), plane(1));
   EXPECT_GT(*std::min_element(depth.begin(), depth.end()), 0);
