@@ -19,6 +19,7 @@ std::uint8_t byteOf(double unit)
   return std::isnan(unit) ? 0 : static_cast<std::uint8_t>(std::min(std::max(unit, 0.0), 1.0) * 255 + 0.5);
 }
 
+/// Hues are turns, from -1/2 on.
 Rgb hueColor(double hue, double saturation, double value)
 {
   Rgb color{};
@@ -64,8 +65,7 @@ Rgb idColor(std::uint32_t id)
 
 Rgb wheelColor(double dx, double dy)
 {
-  const double turn = portable::atan2(dy, dx) / (2 * pi);
-  return hueColor(turn < 0 ? turn + 1 : turn, std::min(std::hypot(dx, dy), 1.0), 1);
+  return hueColor(portable::atan2(dy, dx) / (2 * pi), std::min(std::hypot(dx, dy), 1.0), 1);
 }
 
 LayerLook lookOf(const LayerSpec& spec, const ImageInfo& info)

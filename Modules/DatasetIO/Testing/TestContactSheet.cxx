@@ -156,6 +156,43 @@ TEST(LayerPicture, ValuesInTheirOwnRanges)
   EXPECT_EQ(robust[197], rampColor(1));
 }
 
+TEST(LayerPicture, DepthsFromZeroOnHaveNoLogarithm)
+{
+  EXPECT_EQ(painted<double>(PixelType::Float64, 1, Meaning::Depth, { 0, 10, 5 }),
+    (std::vector<Rgb>{ rampColor(1), rampColor(0.15), rampColor(0.575) }));
+  // a range that was set for others may leave some out
+  ImageInfo info;
+  info.type = PixelType::Float64;
+  info.channels = 1;
+  LayerColors colors(LayerLook::Depth, specOf(PixelType::Float64, 1, "depth"), info);
+  colors.setRange(0, 1, 100);
+  const double depths[] = { -3, 0, 0.5, 1000 };
+  EXPECT_EQ(colors(&depths[0]), rampColor(1));
+  EXPECT_EQ(colors(&depths[1]), rampColor(1));
+  EXPECT_EQ(colors(&depths[2]), rampColor(1));
+  EXPECT_EQ(colors(&depths[3]), rampColor(0.15));
+}
+
+TEST(LayerPicture, IdsMayStartAtZeroAndBeDimmed)
+{
+  Rows ids(PixelType::UInt16, 1, 3, 0, 1);
+  const std::uint16_t values[] = { 0, 6, 65535 };
+  std::copy(std::begin(values), std::end(values), ids.row<std::uint16_t>(0));
+  EXPECT_EQ(paintLayer(ids, { "parts", PixelType::UInt16, 1, "", "", "65535", "", Meaning::Index }).pixels,
+    (std::vector<Rgb>{ idColor(1), idColor(7), nothingColor }));
+  // red, green and blue are an id, the fourth channel how much of the pixel has it
+  Rgb dimmed = idColor(0x010203);
+  for (std::uint8_t& channel : dimmed)
+  {
+    channel = std::uint8_t(channel * 51 / 255);
+  }
+  Rows matte(PixelType::UInt8, 4, 2, 0, 1);
+  const std::uint8_t bytes[] = { 1, 2, 3, 51, 1, 2, 3, 255 };
+  std::copy(std::begin(bytes), std::end(bytes), matte.row<std::uint8_t>(0));
+  EXPECT_EQ(paintLayer(matte, { "alpha", PixelType::UInt8, 4, "", "", "0", "", Meaning::Id }).pixels,
+    (std::vector<Rgb>{ dimmed, idColor(0x010203) }));
+}
+
 TEST(LayerPicture, ColoursOfRampsWheelsAndIds)
 {
   EXPECT_EQ(rampColor(-1), (Rgb{ 24, 15, 61 }));
@@ -203,6 +240,24 @@ TEST(Thumbnail, PicturesAreAveragedAndValuesPicked)
   EXPECT_EQ(makeThumbnail(folder.path("a.npy"), objects, 2, 1).pixels(), (std::vector<Rgb>{ idColor(2), idColor(5) }));
 }
 
+TEST(Thumbnail, OfAnEvenNumberTheFirstOfTheTwoInTheMiddleIsPicked)
+{
+  const TemporaryFolder folder;
+  LayerSpec objects = specOf(PixelType::UInt32, 1, "objects");
+  for (const bool upright : { false, true })
+  {
+    Rows ids(PixelType::UInt32, 1, upright ? 1 : 8, 0, upright ? 8 : 1);
+    for (std::uint32_t i = 0; i < 8; ++i)
+    {
+      ids.row<std::uint32_t>(0)[i] = i + 1;
+    }
+    writeImage("npy", folder.path("a.npy"), objects, ids, 1, {});
+    EXPECT_EQ(makeThumbnail(folder.path("a.npy"), objects, upright ? 1 : 2, upright ? 2 : 1).pixels(),
+      (std::vector<Rgb>{ idColor(2), idColor(6) }))
+      << upright;
+  }
+}
+
 TEST(LayerPicture, FlowHasTheColourWheel)
 {
   Rows flow(PixelType::Float64, 2, 4, 0, 1);
@@ -216,6 +271,17 @@ TEST(LayerPicture, FlowHasTheColourWheel)
   EXPECT_EQ(picture.pixels[1], wheelColor(-0.5, 0));
   EXPECT_EQ(picture.pixels[2], (Rgb{ 255, 255, 255 })) << "at rest";
   EXPECT_EQ(picture.pixels[3], nothingColor);
+}
+
+TEST(LayerPicture, TheLongestHundredthOfAFlowIsNotShownInFull)
+{
+  Rows flow(PixelType::Float64, 2, 200, 0, 1);
+  for (int i = 0; i < 200; ++i)
+  {
+    flow.row<double>(0)[2 * i] = 0;
+    flow.row<double>(0)[2 * i + 1] = -(i + 1);
+  }
+  EXPECT_EQ(paintLayer(flow, specOf(PixelType::Float64, 2, "flow_forward")).longest, 198);
 }
 } // namespace
 
@@ -264,6 +330,88 @@ TEST(ContactSheet, FramesAreChosenEvenly)
   options.thumbnailWidth = 80;
   writeContactSheet(folder.path(), manifest, "contact.png", options);
   EXPECT_EQ(readLayerFile(folder.path("contact.png")).info.height, 13 + 6 + 3 * 66);
+}
+
+namespace
+{
+/// A dataset of one picture, of one gray.
+Manifest makeGray(
+  const std::string& folder, int width, int height, std::uint8_t gray, const std::string& format = "png")
+{
+  const LayerSpec spec = specOf(PixelType::UInt8, 3, "color");
+  Rows rows(PixelType::UInt8, 3, width, 0, height);
+  std::fill_n(rows.row<std::uint8_t>(0), rows.bytes(), gray);
+  makeFolders(folder + "/left/color");
+  const std::string name = "left/color/000000." + format;
+  const FileRecord record = writeImage(format, folder + '/' + name, spec, rows, height, {});
+  Manifest manifest;
+  manifest.layers.push_back({ spec, format });
+  manifest.files.push_back({ name, record.bytes, record.sha256, "color", "left", 0 });
+  return manifest;
+}
+
+/// Red of a pixel of the only cell, whose corner is at (48, 19).
+int cellRed(const ImageData& sheet, int x, int y) { return sheet.pixels.row<std::uint8_t>(19 + y)[3 * (48 + x)]; }
+} // namespace
+
+// A cell is twice as high as wide at most; pictures stand in its middle.
+TEST(ContactSheet, NarrowAndWidePicturesFit)
+{
+  const TemporaryFolder folder;
+  ContactSheetOptions options;
+  options.thumbnailWidth = 4; // 16 at least
+  constexpr int paper = 22;
+  writeContactSheet(folder.path(), makeGray(folder.path(), 10, 100, 200), "contact.png", options);
+  const ImageData high = readLayerFile(folder.path("contact.png"));
+  EXPECT_EQ(high.info.width, 48 + 16 + 6);
+  EXPECT_EQ(high.info.height, 19 + 32 + 6);
+  for (int x = 0; x < 16; ++x) // 3 columns of 0.32 times the picture
+  {
+    EXPECT_EQ(cellRed(high, x, 0), x >= 6 && x < 9 ? 200 : paper) << x;
+    EXPECT_EQ(cellRed(high, x, 31), x >= 6 && x < 9 ? 200 : paper) << x;
+  }
+  writeContactSheet(folder.path(), makeGray(folder.path(), 200, 2, 100), "contact.png", options);
+  const ImageData wide = readLayerFile(folder.path("contact.png"));
+  EXPECT_EQ(wide.info.height, 19 + 1 + 6);
+  EXPECT_EQ(cellRed(wide, 0, 0), 100);
+  EXPECT_EQ(cellRed(wide, 15, 0), 100);
+}
+
+TEST(ContactSheet, OfPicturesThatAreThereTwiceThePngIsShown)
+{
+  const TemporaryFolder folder;
+  Manifest manifest = makeGray(folder.path(), 16, 16, 200);
+  for (const char* other : { "npy", "ppm" }) // before and behind it in the alphabet
+  {
+    const Manifest second = makeGray(folder.path(), 16, 16, 90, other);
+    manifest.files.push_back(second.files[0]);
+  }
+  ContactSheetOptions options;
+  options.thumbnailWidth = 16;
+  writeContactSheet(folder.path(), manifest, "contact.png", options);
+  EXPECT_EQ(cellRed(readLayerFile(folder.path("contact.png")), 8, 8), 200);
+}
+
+TEST(ContactSheet, SharesOfRanksAreNoPicture)
+{
+  const TemporaryFolder folder;
+  for (const int channels : { 1, 2 })
+  {
+    LayerSpec spec = specOf(PixelType::UInt8, channels, "alpha");
+    spec.meaning = Meaning::Coverage;
+    writeImage("npy", folder.path("a.npy"), spec, Rows(PixelType::UInt8, channels, 4, 0, 4), 4, {});
+    Manifest manifest;
+    manifest.layers.push_back({ spec, "npy" });
+    manifest.files.push_back({ "a.npy", 0, "", "alpha", "left", 0 });
+    if (channels == 1)
+    {
+      EXPECT_NO_THROW(writeContactSheet(folder.path(), manifest, "contact.png"));
+    }
+    else
+    {
+      EXPECT_THROW(writeContactSheet(folder.path(), manifest, "contact.png"), UsageError);
+    }
+  }
 }
 
 TEST(ContactSheet, Refusals)
