@@ -80,6 +80,20 @@ TEST(Pfm, BottomRowComesFirst)
     "PF\n1 1\n-1\n");
 }
 
+TEST(Pfm, OtherScalesAreRefusedAndBothOrdersOfBytesRead)
+{
+  const TemporaryFolder folder;
+  const auto valueOf = [&](const std::string& scale, const std::string& value)
+  {
+    writeFile(folder.path("x.pfm"), "Pf\n1 1\n" + scale + '\n' + value);
+    return readLayerFile(folder.path("x.pfm")).pixels.row<float>(0)[0];
+  };
+  EXPECT_EQ(valueOf("-1", std::string("\0\0\xc0\x3f", 4)), 1.5f);
+  EXPECT_EQ(valueOf("1.0", std::string("\x3f\xc0\0\0", 4)), 1.5f);
+  EXPECT_THROW(valueOf("2", std::string(4, '\0')), InputError);
+  EXPECT_THROW(valueOf("-0.5", std::string(4, '\0')), InputError);
+}
+
 TEST(Dgd, MatricesColumnMajorThenSizeThenDepth)
 {
   Rows rows(PixelType::Float64, 1, 3, 0, 2);
@@ -109,6 +123,14 @@ TEST(Dgd, MatricesColumnMajorThenSizeThenDepth)
   const ImageData back = readLayerFile(folder.path("x.dgd"));
   EXPECT_EQ(back.matrices.projection, context.projection);
   EXPECT_EQ(back.matrices.modelView, context.modelView);
+  for (const std::size_t matrix : { 0, 128 })
+  {
+    std::string broken = bytes;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    std::memcpy(&broken[matrix + 40], &none, sizeof none);
+    writeFile(folder.path("x.dgd"), broken);
+    EXPECT_THROW(readLayerFile(folder.path("x.dgd")), InputError) << matrix;
+  }
 }
 
 TEST(Flo, UnknownFlowIsTenToTheTen)
@@ -125,6 +147,71 @@ TEST(Flo, UnknownFlowIsTenToTheTen)
   EXPECT_EQ(valueAt<float>(bytes, 16), -2.0f);
   EXPECT_EQ(valueAt<float>(bytes, 20), 1e10f);
   EXPECT_EQ(valueAt<float>(bytes, 24), 1e10f);
+}
+
+// Middlebury's: a component of 1e9 or more is unknown, and with it the other.
+TEST(Flo, UnknownFlowIsRead)
+{
+  const float values[] = { 1e9f, 3, std::nextafter(1e9f, 0.0f), -2, 5, -1e9f, 7, 8 };
+  std::string bytes = std::string("PIEH\4\0\0\0\1\0\0\0", 12);
+  bytes.append(reinterpret_cast<const char*>(values), sizeof values);
+  const TemporaryFolder folder;
+  writeFile(folder.path("x.flo"), bytes);
+  const ImageData flow = readLayerFile(folder.path("x.flo"));
+  for (int i = 0; i < 8; ++i)
+  {
+    const bool unknown = i < 2 || i == 4 || i == 5;
+    const float found = flow.pixels.row<float>(0)[i];
+    EXPECT_TRUE(unknown ? std::isnan(found) : found == values[i]) << i;
+  }
+}
+
+/// A file of numpy.save(), of 2 x 3 bytes.
+std::string npyOf(char version, const std::string& header, const std::string& values = "abcdef")
+{
+  const std::string length{ char(header.size() & 255), char(header.size() >> 8), 0, 0 };
+  return std::string("\x93NUMPY") + version + '\0' + length.substr(0, version == 1 ? 2 : 4) + header + values;
+}
+
+TEST(Npy, HeadersOfAllVersionsAndAnyLengthAreRead)
+{
+  const TemporaryFolder folder;
+  const std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3), }";
+  for (const char version : { 1, 2, 3 })
+  {
+    for (const std::size_t blanks : { 0, 50, 5000 })
+    {
+      writeFile(folder.path("x.npy"), npyOf(version, header + std::string(blanks, ' ') + '\n'));
+      const ImageData image = readLayerFile(folder.path("x.npy"));
+      EXPECT_EQ(image.info.width, 3);
+      EXPECT_EQ(image.info.height, 2);
+      EXPECT_EQ(image.pixels.row<std::uint8_t>(1)[2], 'f') << int(version) << ' ' << blanks;
+    }
+  }
+}
+
+TEST(Npy, HeadersThatSayTooLittleOrTooMuchAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto refusal = [&](char version, const std::string& header, const std::string& values = "abcdef")
+  {
+    writeFile(folder.path("x.npy"), npyOf(version, header, values));
+    return thrownBy<InputError>([&] { readLayerFile(folder.path("x.npy")); });
+  };
+  const auto expectIn = [](const std::string& message, const std::string& part)
+  { EXPECT_NE(message.find(part), std::string::npos) << message; };
+  const std::string type = "'descr': '|u1', ";
+  const std::string order = "'fortran_order': False, ";
+  const std::string shape = "'shape': (2, 3), ";
+  expectIn(refusal(4, '{' + type + order + shape + '}'), "unsupported version of NumPy files");
+  expectIn(refusal(1, '{' + order + shape + '}'), "incomplete header");
+  expectIn(refusal(1, '{' + type + shape + '}'), "incomplete header");
+  expectIn(refusal(1, '{' + type + order + '}'), "incomplete header");
+  expectIn(refusal(1, '{' + type + order + "'shape': (2, 3, 1, 1), }"), "too many dimensions");
+  expectIn(refusal(1, '{' + type + order + "'shape': (2, 3, 0), }"), "not the shape of an image");
+  expectIn(
+    refusal(1, '{' + type + order + "'shape': (1, 1, 1025), }", std::string(1025, 'x')), "not the shape of an image");
+  EXPECT_EQ(refusal(1, '{' + type + order + "'shape': (1, 1, 1024), }", std::string(1024, 'x')), "");
 }
 
 TEST(Npy, HeaderIsVersionOneAndAligned)
