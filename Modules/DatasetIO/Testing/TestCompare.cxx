@@ -4,6 +4,7 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkJournal.h"
 #include "dgtkLdi.h"
 #include "dgtkTestImages.h"
 #include "dgtkTestSupport.h"
@@ -86,6 +87,7 @@ TEST(Compare, TolerancesHoldToTheLastPixel)
   EXPECT_FALSE(equal({ 1e300, {}, {} })) << "nothing is near a value that is not there";
   EXPECT_TRUE((CompareTolerance{ 0, {}, 0.29 }.allows(29, 100)));
   EXPECT_FALSE((CompareTolerance{ 0, {}, 0.29 }.allows(30, 100)));
+  EXPECT_TRUE((CompareTolerance{ 0, {}, 0.29 }.allows(0, 0)));
 }
 
 TEST(Compare, OtherFormatsAndTypesByValue)
@@ -105,6 +107,26 @@ TEST(Compare, OtherFormatsAndTypesByValue)
   EXPECT_EQ(compareFiles(folder.path("a.npy"), folder.path("b.npy")).problem,
     "20 x 10 pixels of 1 x float64 against 10 x 20 pixels of 1 x float64");
   EXPECT_THROW(compareFiles(folder.path("a.npy"), folder.path("none.npy")), InputError);
+}
+
+TEST(Compare, ImagesOfOtherShapesAreNotComparedPixelByPixel)
+{
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, int channels, int width, int height)
+  {
+    Rows rows(PixelType::Float64, channels, width, 0, height);
+    writeImage("npy", folder.path(name), specOf(PixelType::Float64, channels), rows, 1, {});
+  };
+  write("a.npy", 2, 4, 3);
+  int number = 0;
+  for (const auto& [channels, width, height] : { std::tuple(1, 4, 3), { 2, 5, 3 }, { 2, 4, 2 } })
+  {
+    const std::string name = std::to_string(++number) + ".npy";
+    write(name, channels, width, height);
+    const CompareResult result = compareFiles(folder.path("a.npy"), folder.path(name));
+    EXPECT_FALSE(result.equal);
+    EXPECT_THAT(result.problem, HasSubstr("4 x 3 pixels of 2 x float64 against ")) << name;
+  }
 }
 
 TEST(Compare, TheBeginningOfAFileIsNotTheFile)
@@ -178,6 +200,24 @@ TEST(Compare, DatasetsFileByFile)
   EXPECT_THROW(compareDatasets(folder.path("one"), folder.path("none")), InputError);
 }
 
+// A journal is not part of what a run makes; links are.
+TEST(Compare, FoldersWithoutAManifestAreComparedWhole)
+{
+  const TemporaryFolder folder;
+  for (const std::string name : { "one", "two" })
+  {
+    makeFolders(folder.path(name + "/deep"));
+    writeFile(folder.path(name + "/deep/a.txt"), "text");
+    writeFile(folder.path(name + '/' + journalName), name);
+  }
+  const auto compare = [&] { return compareDatasets(folder.path("one"), folder.path("two")); };
+  EXPECT_TRUE(compare().equal);
+  EXPECT_EQ(compare().files, 1u);
+  std::filesystem::create_symlink("nowhere", folder.path("two/link"));
+  EXPECT_FALSE(compare().equal);
+  EXPECT_EQ(compare().files, 2u);
+}
+
 TEST(Compare, TolerancesAreOfLayersThatTheDatasetHas)
 {
   const TemporaryFolder folder;
@@ -199,4 +239,7 @@ TEST(Compare, TolerancesAreOfLayersThatTheDatasetHas)
   EXPECT_THAT(refusal("", { 1, {}, {} }), HasSubstr("has no such layer")); // files of no layer are not one
   EXPECT_THAT(refusal("objects", { 1, {}, {} }), HasSubstr("its values are names"));
   EXPECT_EQ(refusal("objects", { 0, 3, {} }), "");
+  manifest.layers[0].spec.unit = "class";
+  writeFile(folder.path("manifest.json"), manifestText(manifest));
+  EXPECT_THAT(refusal("objects", { 1, {}, {} }), HasSubstr("its values are names"));
 }
