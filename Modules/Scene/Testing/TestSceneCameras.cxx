@@ -85,6 +85,42 @@ TEST(SceneCameras, FilesMoveWithTheScene)
   EXPECT_EQ(readScene(folder.path("deep/b.json")).cameras.at(0).parameters.at("oddFile").file, "../a.npy");
 }
 
+TEST(SceneCameras, FilesAreNotOpenedYet)
+{
+  const TemporaryFolder folder;
+  const SceneDescription scene = readText(folder, "a.json",
+    "{\"cameras\": [{\"model\": \"raytable\", \"rays\": \"none.npy\", \"eye\": [0, 0, 9], \"lookAt\": [0, 0, 0]}]}");
+  EXPECT_EQ(scene.cameras.at(0).parameters.at("rays").file, "none.npy");
+}
+
+// Of motions of more than 20000 frames only the keys are looked at.
+TEST(SceneCameras, PosesAreCheckedAtAllFramesOfAMotion)
+{
+  const auto refusal = [](int last)
+  {
+    return refusalOf("a.json", "{\"cameras\": [{\"eye\": {\"keys\": [[0, [0, 0, 5]], [" + std::to_string(last) +
+                                 ", [0, 0, -5]]]}, \"lookAt\": [0, 0, 0]}]}");
+  };
+  EXPECT_THAT(refusal(20000), testing::HasSubstr("is the eye itself at frame 10000"));
+  EXPECT_EQ(refusal(20002), "");
+}
+
+TEST(SceneCameras, MatricesAreOfOneForm)
+{
+  const auto refusal = [](const std::string& rows)
+  {
+    return refusalOf("a.json", "{\"cameras\": [{\"width\": 9, \"height\": 9, \"K\": [" + rows +
+                                 "], \"eye\": [0, 0, 9], \"lookAt\": [0, 0, 0]}]}");
+  };
+  EXPECT_EQ(refusal("[5, 1, 4], [0, 6, 3], [0, 0, 1]"), "");
+  for (const char* rows :
+    { "[0, 1, 4], [0, 6, 3], [0, 0, 1]", "[5, 1, 4], [0, -6, 3], [0, 0, 1]", "[5, 1, 4], [1, 6, 3], [0, 0, 1]",
+      "[5, 1, 4], [0, 6, 3], [1, 0, 1]", "[5, 1, 4], [0, 6, 3], [0, 1, 1]", "[5, 1, 4], [0, 6, 3], [0, 0, 2]" })
+  {
+    EXPECT_THAT(refusal(rows), testing::HasSubstr("expected [[fx, s, cx], [0, fy, cy], [0, 0, 1]]")) << rows;
+  }
+}
+
 TEST(SceneCameras, WhatAModelDoesNotHaveIsRefused)
 {
   const std::pair<std::string, std::string> table[] = {

@@ -51,6 +51,25 @@ TEST(SceneRefusals, Classes)
   EXPECT_THAT(of("{\"tree\": 1}", "\"visible\": false, \"class\": \"tee\""), HasSubstr("found 'tee'"));
 }
 
+TEST(SceneRefusals, TwentyClassesAreNamedAtMost)
+{
+  const auto expected = [](int count)
+  {
+    std::string classes;
+    std::string names;
+    for (int i = 1; i <= count; ++i)
+    {
+      classes += (i > 1 ? ", \"c" : "\"c") + std::to_string(i) + "\": " + std::to_string(i);
+      names += i <= 20 ? (i > 1 ? ", 'c" : "'c") + std::to_string(i) + '\'' : "";
+    }
+    EXPECT_THAT(refusalOf("a.json", "{\"classes\": {" + classes + "}, \"objects\": [{\"model\": \"a.ac\"}]}"),
+      HasSubstr("(expected one of " + names + (count > 20 ? ", ..." : "") + ", found ''"));
+  };
+  expected(20);
+  expected(21);
+  expected(25);
+}
+
 TEST(SceneRefusals, AFileOfClasses)
 {
   const TemporaryFolder folder;

@@ -215,6 +215,16 @@ TEST(SceneJson, UnitsOfLength)
   }
 }
 
+TEST(SceneJson, MetresAreThoseOfTheUnits)
+{
+  const auto refusal = [](const std::string& metres)
+  { return refusalOf("a.json", "{\"units\": \"mm\", \"metresPerUnit\": " + metres + "}"); };
+  EXPECT_EQ(refusal("0.001"), "");
+  EXPECT_EQ(refusal("0.0010000005"), "") << "of numbers that were rounded";
+  EXPECT_THAT(refusal("0.001005"), testing::HasSubstr("metresPerUnit contradicts units 'mm'"));
+  EXPECT_THAT(refusal("0.000995"), testing::HasSubstr("metresPerUnit contradicts units 'mm'"));
+}
+
 TEST(SceneJson, ATextThatIsInNoFile)
 {
   const TemporaryFolder folder;
