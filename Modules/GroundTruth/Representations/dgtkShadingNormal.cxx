@@ -2,14 +2,13 @@
 #include "dgtkSurfaceLoop.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 namespace dgtk
 {
 
 namespace
 {
-/// Turns normals of an object into the camera frame: the inverse transpose up to a positive factor.
+/// Turns normals of an object into the camera frame: the inverse transpose up to a factor, negative where it mirrors.
 Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& camera_from_object)
 {
   Eigen::Matrix3d cofactors;
@@ -17,13 +16,13 @@ Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& camera_from_object)
   {
     cofactors.col(c) = camera_from_object.col((c + 1) % 3).cross(camera_from_object.col((c + 2) % 3));
   }
-  return camera_from_object.determinant() < 0 ? Eigen::Matrix3d(-cofactors) : cofactors;
+  return cofactors;
 }
 
 /// What the corners of a triangle have, camera frame.
 struct CornerNormals
 {
-  Eigen::Vector3d outward; ///< normal of the triangle, of its front
+  Eigen::Vector3d outward; ///< normal of the triangle, of its front where nothing mirrors
   Eigen::Vector3d corner[3];
 };
 
