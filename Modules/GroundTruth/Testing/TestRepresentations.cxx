@@ -235,3 +235,31 @@ TEST(EveryRepresentation, ALensGivesWhatItsPinholeGives)
     }
   }
 }
+
+// Also of mirrored things, from both sides, and where normals are missing.
+TEST(ShadingNormals, AreTurnedToTheViewer)
+{
+  for (const double scale : { 2.0, -2.0 })
+  {
+    for (const double side : { 5.0, -5.0 })
+    {
+      for (const Eigen::Vector3f& own : { Eigen::Vector3f(0.6F, 0, 0.8F), Eigen::Vector3f(0, 0, 0) })
+      {
+        const auto quad = makeQuad();
+        auto geometry = std::make_shared<dgtk::Geometry>(*quad->rest);
+        geometry->normals.assign(4, own);
+        quad->rest = geometry;
+        const auto state = SceneBuilder().add(quad, placement({ 0, 0, 0 }, scale)).state();
+        ViewOptions options;
+        options.eye = { 0, 0, side };
+        const dgtk::View view = makeView(options);
+        const dgtk::Rows rows = computeLayer("shadingnormal", *state, view, bruteForce(*state, view));
+        const double* const found = rows.row<double>(24) + std::size_t(3) * 32;
+        // In the camera's axes x is to the right, the world's x for a viewer at +z.
+        const bool flat = own.isZero(0);
+        const Eigen::Vector3d expected(flat ? 0 : 0.6, 0, flat ? -1 : -0.8);
+        EXPECT_LE((Eigen::Map<const Eigen::Vector3d>(found) - expected).norm(), 1e-7) << scale << ' ' << side;
+      }
+    }
+  }
+}
