@@ -116,7 +116,7 @@ SurfaceDistance::SurfaceDistance(std::shared_ptr<const SceneState> state)
   std::vector<std::shared_ptr<const RayMesh>> meshes = this->Self->device->meshes(instances, true);
   for (std::size_t i = 0; i < instances.size(); ++i)
   {
-    if (!meshes[i] || !instances[i].visible)
+    if (!meshes[i]) // nothing of it is there
     {
       continue;
     }

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSampler.h"
+
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace dgtk;
+using testing::HasSubstr;
+
+namespace
+{
+/// A camera on a path, as it is sampled; `members` of the camera besides it.
+CameraDescription onPath(const std::string& path, const std::string& members = "")
+{
+  const std::string json = "{\"seed\": 2, \"cameras\": [{\"name\": \"c\", \"path\": {" + path + "}" + members + "}]}";
+  return Sampler(RandomScene::ofText(json, ".")).draw(0).scene.cameras.at(0);
+}
+
+std::string refusalOfPath(const std::string& path, const std::string& members = "")
+{
+  return test::thrownBy<Error>([&] { onPath(path, members); });
+}
+
+void expectNear(const Eigen::Vector3d& found, const Eigen::Vector3d& expected)
+{
+  EXPECT_LE((found - expected).norm(), 1e-12) << found.transpose() << " for " << expected.transpose();
+}
+
+std::vector<int> framesOfKeys(const Track<Eigen::Vector3d>& track)
+{
+  std::vector<int> frames;
+  for (const auto& key : track.keys)
+  {
+    frames.push_back(key.frame);
+  }
+  return frames;
+}
+} // namespace
+
+// y is up: longitude 0 is +z, 90 degrees +x.
+TEST(CameraPath, OrbitsGoAroundOnceAtTheHeightOfTheirCentre)
+{
+  const CameraDescription camera = onPath("\"orbit\": {\"center\": [1, 2, 3], \"radius\": [5, 9], \"frames\": [0, 4]}");
+  EXPECT_EQ(framesOfKeys(camera.eye), (std::vector<int>{ 0, 1, 2, 3, 4 }));
+  expectNear(camera.eye.at(0), { 1, 2, 8 });
+  expectNear(camera.eye.at(1), { 7, 2, 3 });
+  expectNear(camera.eye.at(2), { 1, 2, -4 });
+  expectNear(camera.eye.at(3), { -7, 2, 3 });
+  expectNear(camera.eye.at(4), { 1, 2, 12 });
+  expectNear(camera.lookAt.at(3), { 1, 2, 3 });
+}
+
+TEST(CameraPath, OrbitsMayRiseAndTurnAsFarAsTheySay)
+{
+  const CameraDescription camera = onPath("\"orbit\": {\"center\": [0, 0, 0], \"radius\": 2, \"elevation\": [0, 60], "
+                                          "\"azimuth\": [90, -90], \"frames\": [3, 8], "
+                                          "\"every\": 2}",
+    ", \"lookAt\": [7, 7, 7]");
+  EXPECT_EQ(framesOfKeys(camera.eye), (std::vector<int>{ 3, 5, 7, 8 }));
+  expectNear(camera.eye.at(3), { 2, 0, 0 });
+  expectNear(camera.eye.at(8), { -1, std::sqrt(3.0), 0 });
+  const double turn = (90 - 2 * 36) * M_PI / 180; // two fifths of the way
+  const double height = 24 * M_PI / 180;
+  expectNear(camera.eye.at(5),
+    { 2 * std::sin(turn) * std::cos(height), 2 * std::sin(height), 2 * std::cos(turn) * std::cos(height) });
+  expectNear(camera.lookAt.at(5), { 7, 7, 7 });
+  for (const char* pole : { "90", "-90", "[0, 90]" })
+  {
+    EXPECT_THAT(refusalOfPath("\"orbit\": {\"center\": [0, 0, 0], \"radius\": 2, \"frames\": [0, 4], \"elevation\": " +
+                              std::string(pole) + "}"),
+      HasSubstr("degrees between -90 and 90"))
+      << pole;
+  }
+}
+
+TEST(CameraPath, CurvesThroughPointsOfALineAreTheLine)
+{
+  for (const char* points : { "[[0, 1, 0], [10, 1, 0]]", "[[0, 1, 0], [2, 1, 0], [3, 1, 0], [10, 1, 0]]" })
+  {
+    const CameraDescription camera =
+      onPath("\"spline\": {\"frames\": [0, 4], \"points\": " + std::string(points) + "}");
+    for (int frame = 0; frame <= 4; ++frame)
+    {
+      expectNear(camera.eye.at(frame), { 2.5 * frame, 1, 0 });
+      expectNear(camera.lookAt.at(frame), { 2.5 * frame + 1, 1, 0 });
+    }
+  }
+}
+
+// The view is along the curve: that from the place before to the one behind it.
+TEST(CameraPath, CurvesAreLookedAlong)
+{
+  const CameraDescription camera =
+    onPath("\"spline\": {\"frames\": [0, 1000], \"points\": [[0, 0, 0], [1, 0, 0], [1, 0, 1], [3, 2, 1]]}");
+  for (int frame = 1; frame < 1000; ++frame)
+  {
+    const Eigen::Vector3d along = (camera.eye.at(frame + 1) - camera.eye.at(frame - 1)).normalized();
+    ASSERT_LE((camera.lookAt.at(frame) - camera.eye.at(frame) - along).norm(), 0.01) << frame;
+  }
+  const std::string there = "\"spline\": {\"frames\": [0, 2], \"points\": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]}";
+  EXPECT_THAT(refusalOfPath(there), HasSubstr("stands still")) << "where it turns back";
+  EXPECT_EQ(refusalOfPath(there, ", \"lookAt\": [0, 5, 0]"), "");
+}
+
+TEST(CameraPath, PointsOfACurveAreApart)
+{
+  const auto refusal = [](const std::string& points)
+  { return refusalOfPath("\"spline\": {\"frames\": [0, 2], \"points\": [" + points + "]}"); };
+  EXPECT_THAT(refusal("[0, 0, 0]"), HasSubstr("makes no curve (expected 2 to 10000 points, found 1)"));
+  EXPECT_THAT(refusal("[0, 0, 0], [0, 0, 0]"), HasSubstr("points[1] is where the point before is"));
+  EXPECT_THAT(refusal("[0, 0, 0], [1, 0, 0], [1, 0, 0]"), HasSubstr("points[2] is where the point before is"));
+  EXPECT_THAT(refusalOfPath("\"spline\": {\"frames\": [2, 2], \"points\": [[0, 0, 0], [1, 0, 0]]}"),
+    HasSubstr("is empty (expected [first, last], found 2, 2)"));
+  EXPECT_THAT(refusalOfPath("\"otherwise\": \"omit\""), HasSubstr("found 0 of them"));
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Single draws: the ends of what may be said, and points that geometry decides.
+#include "dgtkDistributions.h"
+#include "dgtkSceneRandom.h"
+
+#include "dgtkError.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace dgtk;
+using testing::HasSubstr;
+
+namespace
+{
+JsonNode drawOne(const std::string& json, UpAxis up = UpAxis::Y)
+{
+  const JsonDocument document = parseJson("test", json);
+  const JsonCursor at(document);
+  const SampleDraws draw(11, 0);
+  return drawnValue(randomWordOf({}, document.root), at, ValueUniforms(draw, "objects/a/b", 0, false), up);
+}
+
+std::string refusalOfDraw(const std::string& json)
+{
+  return test::thrownBy<InputError>([&] { drawOne(json); });
+}
+
+Eigen::Vector3d drawnPoint(const JsonNode& node)
+{
+  return { node.children.at(0).number, node.children.at(1).number, node.children.at(2).number };
+}
+} // namespace
+
+TEST(SampleEnds, RangesOfOneNumberHaveThatNumber)
+{
+  EXPECT_EQ(drawOne("{\"uniform\": [2, 2]}").number, 2);
+  EXPECT_EQ(drawOne("{\"logUniform\": [3, 3]}").number, 3);
+  EXPECT_EQ(drawOne("{\"integer\": [-5, -5]}").number, -5);
+  EXPECT_EQ(drawnPoint(drawOne("{\"inBox\": [[1, 2, 3], [1, 2, 3]]}")), Eigen::Vector3d(1, 2, 3));
+  for (const char* empty : { "{\"uniform\": [2, 1]}", "{\"logUniform\": [3, 2]}", "{\"integer\": [4, 3]}",
+         "{\"inBox\": [[1, 2, 3], [1, 2, 2]]}", "{\"normal\": {\"mean\": 0, \"deviation\": 1, \"min\": 1, \"max\": 1}}",
+         "{\"normal\": {\"mean\": 0, \"deviation\": 1, \"min\": 1, \"max\": -1}}" })
+  {
+    EXPECT_THAT(refusalOfDraw(empty), HasSubstr("is empty")) << empty;
+  }
+  EXPECT_THAT(refusalOfDraw("{\"normal\": {\"mean\": 0, \"deviation\": 0.5, \"min\": 19}}"), HasSubstr("too far"));
+  EXPECT_THAT(refusalOfDraw("{\"normal\": {\"mean\": 0, \"deviation\": 0.5, \"max\": -19}}"), HasSubstr("too far"));
+  EXPECT_GE(drawOne("{\"normal\": {\"mean\": 0, \"deviation\": 0.5, \"min\": 18}}").number, 18);
+  EXPECT_LE(drawOne("{\"normal\": {\"mean\": 0, \"deviation\": 0.5, \"max\": -18}}").number, -18);
+}
+
+TEST(SampleEnds, ShellsAreAroundPointsAndObjects)
+{
+  // straight up, as the scene says
+  const std::string above = "\"radius\": 5, \"elevation\": 90}}";
+  EXPECT_LE(
+    (drawnPoint(drawOne("{\"shell\": {\"center\": [1, 2, 3], " + above)) - Eigen::Vector3d(1, 7, 3)).norm(), 1e-14);
+  EXPECT_LE(
+    (drawnPoint(drawOne("{\"shell\": {\"center\": [1, 2, 3], " + above, UpAxis::Z)) - Eigen::Vector3d(1, 2, 8)).norm(),
+    1e-14);
+  GeometryPoint point = geometryPointOf(drawOne("{\"shell\": {\"center\": \"ball\", " + above));
+  EXPECT_FALSE(point.onSurface);
+  EXPECT_EQ(point.object, "ball");
+  EXPECT_LE((point.numbers - Eigen::Vector3d(0, 5, 0)).norm(), 1e-14);
+  const auto center = [](bool onSurface)
+  {
+    return std::string("{\"shell\": {\"center\": {\"$geometry\": ") + (onSurface ? "true" : "false") +
+           ", \"object\": \"ball\", \"numbers\": [1, 2, 3], \"above\": 0}, ";
+  };
+  point = geometryPointOf(drawOne(center(false) + above));
+  EXPECT_EQ(point.object, "ball");
+  EXPECT_LE((point.numbers - Eigen::Vector3d(1, 7, 3)).norm(), 1e-14) << "away from where that was";
+  EXPECT_THAT(refusalOfDraw(center(true) + above), HasSubstr("cannot be on a surface"));
+}
+
+TEST(SampleEnds, PointsOnSurfacesMayStandAboveThem)
+{
+  GeometryPoint point = geometryPointOf(drawOne("{\"onSurface\": \"ball\"}"));
+  EXPECT_TRUE(point.onSurface);
+  EXPECT_EQ(point.object, "ball");
+  EXPECT_EQ(point.above, 0);
+  point = geometryPointOf(drawOne("{\"onSurface\": {\"object\": \"ball\", \"above\": -2.5}}"));
+  EXPECT_EQ(point.object, "ball");
+  EXPECT_EQ(point.above, -2.5);
+  EXPECT_EQ(geometryPointOf(drawOne("{\"onSurface\": {\"object\": \"ball\"}}")).above, 0);
+}
+
+// Of [0, 1) each choice has a part that begins with its first number.
+TEST(SampleEnds, ChoicesBeginWhereTheOneBeforeEnds)
+{
+  EXPECT_EQ(chosen(0, 2, {}), 0u);
+  EXPECT_EQ(chosen(0.5, 2, {}), 1u);
+  EXPECT_EQ(chosen(0, 3, { 1, 2, 1 }), 0u);
+  EXPECT_EQ(chosen(0.25, 3, { 1, 2, 1 }), 1u);
+  EXPECT_EQ(chosen(0.75, 3, { 1, 2, 1 }), 2u);
+  EXPECT_EQ(chosen(0, 3, { 0, 2, 0 }), 1u);
+  EXPECT_EQ(chosen(1, 3, { 1, 2, 0 }), 1u) << "none that has no weight, whatever is rounded";
+  EXPECT_EQ(chosen(1, 3, {}), 2u);
+}
