@@ -288,6 +288,9 @@ TEST(Ldi, DamagedFilesAreRefusedByName)
   EXPECT_THAT(says(with(good, 4, std::int32_t(0))), HasSubstr("a.ldi"));
   EXPECT_THAT(says(with(good, 0, std::int32_t(1 << 23))), HasSubstr("too short for its size"));
   EXPECT_THAT(says(with(good, 8, 0xFFFFFFFFu)), HasSubstr("more records in a pixel than the rest of the file holds"));
+  // all records of the file, 16 bytes each behind the header and a count of 4 bytes for each pixel
+  const std::size_t records = (good.size() - 8 - 4 * std::size_t(ldiWidth * ldiHeight)) / 16;
+  EXPECT_THAT(says(with(good, 8, 0xFFFFFFFFu)), HasSubstr("expected at most " + std::to_string(records) + ", found "));
   EXPECT_THAT(says(good + "x"), HasSubstr("goes on behind its last pixel"));
   // the first record stands behind the counts of pixels 0 and 1
   EXPECT_THAT(says(with(good, 20, std::numeric_limits<double>::infinity())), HasSubstr("a depth that is not finite"));

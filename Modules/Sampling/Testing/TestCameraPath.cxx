@@ -103,7 +103,7 @@ TEST(CameraPath, CurvesAreLookedAlong)
   }
   const std::string there = "\"spline\": {\"frames\": [0, 2], \"points\": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]}";
   EXPECT_THAT(refusalOfPath(there), HasSubstr("stands still")) << "where it turns back";
-  EXPECT_EQ(refusalOfPath(there, ", \"lookAt\": [0, 5, 0]"), "");
+  EXPECT_EQ(refusalOfPath(there, ", \"lookAt\": [0, 0, 5]"), "");
 }
 
 TEST(CameraPath, PointsOfACurveAreApart)
