@@ -202,5 +202,6 @@ TEST(ModelLibrary, FeedsAStage)
   ASSERT_EQ(state->instances.size(), 4u);
   EXPECT_EQ(state->instances[0].geometry, state->instances[2].geometry);
   EXPECT_EQ(state->instances[0].geometry, library.at(scene, scene.objects[0], 2.5).geometry);
+  EXPECT_EQ(state->instances[0].model, library.at(scene, scene.objects[0], 2.5).model);
   EXPECT_EQ(stage->at(2.5), state) << "the latest states are kept";
 }
