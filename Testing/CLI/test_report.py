@@ -10,7 +10,7 @@ import zlib
 import numpy as np
 
 from browser import Browser, chromium
-from harness import SCENES, Case, load_json, main
+from harness import SCENES, SOURCE, Case, load_json, main
 from pictures import read_png
 
 HOSTILE = "</script><img src=x onerror=\"document.title='bad'\">&'\""
@@ -39,6 +39,17 @@ def middles(samples, pixels):
     first = np.arange(samples) * pixels // samples
     end = np.maximum(first + 1, (np.arange(samples) + 1) * pixels // samples)
     return (first + end - 1) // 2
+
+
+def luma_of(path):
+    """Of a picture's pixels, 0 to 1, by ITU-R BT.709."""
+    return read_png(path).astype(float)[..., :3] @ (0.2126, 0.7152, 0.0722) / 255
+
+
+def from_above(points, up):
+    """Right, down and up of a plan: what points at the reader is up."""
+    x, y, z = np.moveaxis(np.asarray(points, float), -1, 0)
+    return np.stack((x, -y, z) if up == "z" else (x, z, y), axis=-1)
 
 
 def ids_of(path):
@@ -111,7 +122,19 @@ class Report(Case):
         length[length > 1e9] = np.nan
         found = layers["flow_forward"]["numbers"]
         self.assertEqual(found["values"], int(np.isfinite(length).sum()))
+        self.assertEqual((found["zero"], found["negative"], found["nothing"]), (int((length == 0).sum()), 0, int(np.isnan(length).sum())))
         self.assertAlmostEqual(found["most"], np.nanmax(length), delta=1e-6)
+
+        luma = {path.replace("/color/", " ")[:-4]: luma_of(os.path.join(folder, path)) for path in paths if "/color/" in path}
+        found, values = layers["color"]["brightness"], np.stack(list(luma.values())).ravel()
+        self.assertEqual((found["values"], found["zero"], found["one"]), (values.size, int((values <= 0).sum()), int((values >= 1).sum())))
+        np.testing.assert_allclose((found["least"], found["most"], found["mean"]), (values.min(), values.max(), values.mean()), rtol=1e-12)
+        edges = np.isclose(values * 64, np.round(values * 64), rtol=0, atol=1e-9).sum()
+        self.assertLessEqual(np.abs(np.array(found["bins"]) - np.histogram(values, 64, (0, 1))[0]).sum(), 2 * edges)
+        darkest = [(picture["camera"], picture["frame"]) for picture in model["frames"]["darkest"]]
+        self.assertEqual(darkest, sorted(darkest, key=lambda one: luma[f"{one[0]} {one[1]:06d}"].mean()))
+        for picture in model["frames"]["darkest"]:
+            self.assertAlmostEqual(picture["brightness"], luma[f"{picture['camera']} {picture['frame']:06d}"].mean(), places=12)
 
         # legends: one range for all pictures, without the outermost hundredths; the ramp has the pictures' own colours
         self.assertEqual({name: layer["legend"]["kind"] for name, layer in layers.items()},
@@ -134,16 +157,33 @@ class Report(Case):
         for one in load_json(os.path.join(folder, "objects.json"))["objects"]:
             pixels = [int((picture == one["id"]).sum()) for picture in ids.values()]
             self.assertEqual((rows[one["id"]]["pixels"], rows[one["id"]]["pictures"]), (sum(pixels), sum(n > 0 for n in pixels)), one["name"])
+        self.assertEqual(list(rows), sorted(rows, key=lambda one: (-rows[one]["pixels"], -rows[one]["pictures"], one)))
+        listed = [one["class"] for one in load_json(os.path.join(folder, "objects.json"))["objects"]]
+        self.assertEqual({row["name"]: row["members"] for row in model["seen"]["classes"]}, {name: listed.count(name) for name in listed})
         self.assertEqual(sum(row["pixels"] for row in model["seen"]["classes"]), sum(int((picture > 0).sum()) for picture in ids.values()))
         for picture in model["pictures"]:
             self.assertAlmostEqual(picture["covered"], (ids[f"{picture['camera']}/objects/{picture['frame']:06d}.ppm"] > 0).mean(), places=12)
         emptiest = [picture["covered"] for picture in model["frames"]["emptiest"]]
         self.assertEqual(emptiest, sorted(emptiest))
+        sizes = {}
+        for file in manifest["files"]:
+            if file.get("camera"):
+                place = (file["camera"], file["frame"])
+                sizes[place] = sizes.get(place, 0) + file["bytes"]
+        self.assertEqual([picture["bytes"] for picture in model["frames"]["largest"]], sorted(sizes.values(), reverse=True))
+        self.assertEqual({(one["camera"], one["frame"]): (one["bytes"], one["shown"]) for one in model["pictures"]},
+                         {place: (sizes[place], i) for i, place in enumerate(sorted(sizes))})
+        data = model["dataset"]
+        self.assertEqual((data["cameras"], data["files"], data["bytes"]), (2, len(paths), sum(sizes.values())))
 
         boxes = [box for path in paths if "/boxes/" in path for box in load_json(os.path.join(folder, path))["objects"]]
         shares = [box["pixels_visible"] / box["pixels_amodal"] for box in boxes if box["pixels_amodal"] > 0]
         self.assertEqual(model["seen"]["boxes"]["shares"]["bins"], np.histogram(shares, 20, (0, 1))[0].tolist())
         self.assertEqual(model["seen"]["boxes"]["hidden"], sum(box["pixels_visible"] == 0 for box in boxes))
+        sides = [max(b[2] - b[0], b[3] - b[1]) for b in (box["box_visible"] for box in boxes) if b]
+        found = model["seen"]["boxes"]["sizes"]
+        self.assertEqual((found["values"], found["least"], found["most"]), (len(sides), min(sides), max(sides)))
+        self.assertEqual(model["seen"]["boxes"]["pictures"], 6)
 
         # what is read out is the dataset's pixel
         order = list(layers)
@@ -165,11 +205,19 @@ class Report(Case):
 
     def test_fewer_samples_than_pixels(self):
         folder = self.path("large")
-        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--layers", "depth", "--size", "1500x300", "--cameras", "left", "--frames", "0")
-        size, values = block_of(self.report(folder), 0, 0)
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--layers", "color,depth", "--size", "1500x300", "--cameras", "left", "--frames", "0")
+        page = self.report(folder)
+        size, values = block_of(page, 1, 0)
         self.assertEqual((size, values.shape), ((1500, 300), (128, 640, 1)))
         file = np.load(os.path.join(folder, "left/depth/000000.npy"))
         np.testing.assert_array_equal(values[..., 0], file[np.ix_(middles(128, 300), middles(640, 1500))].astype(np.float32))
+        # colours are read out as they are, and drawn as averages
+        color = read_png(os.path.join(folder, "left/color/000000.png"))
+        np.testing.assert_array_equal(block_of(page, 0, 0)[1], color[np.ix_(middles(128, 300), middles(640, 1500))])
+        drawn = self.picture_of(page, 0, 0)
+        for j, i in ((0, 0), (40, 100), (127, 639), (77, 320)):
+            area = color[j * 300 // 128:(j + 1) * 300 // 128, i * 1500 // 640:(i + 1) * 1500 // 640]
+            self.assertLessEqual(np.abs(drawn[j, i] - area.mean(axis=(0, 1))).max(), 1, (j, i))
 
     def test_subset_and_same_bytes(self):
         folder = self.render(layers="depth,objects")
@@ -193,15 +241,16 @@ class Report(Case):
         self.write("scenes/manifest.json", "{}")
         self.write("scenes/samples.json", json.dumps({"version": 1, "samples": [
             {"sample": 4, "file": "000004.json", "notes": [{"path": "objects/cup#1/place", "kept": False, "why": "no room <b>here</b>", "attempts": 9}, {"path": "cameras/left/require", "kept": True, "attempts": 2}]},
-            {"sample": 5, "refused": {"path": "objects/bowl/place", "why": "no room", "attempts": 20}}, {"sample": 6, "file": "000006.json"}]}))
+            {"sample": 5, "refused": {"path": "objects/bowl/place", "why": "no room", "attempts": 20}}, {"sample": 6, "file": "000006.json"},
+            {"sample": 7, "file": "000007.json", "notes": [{"path": "objects/cup#1/place", "why": "no room <b>here</b>"}]}]}))
         os.makedirs(self.path("scenes", "broken"))
         self.write("scenes/broken/manifest.json", "{")
         model = model_of(self.report(self.path("scenes")))
         self.assertEqual((model["dataset"]["scenesFound"], model["dataset"]["scenes"], model["dataset"]["pictures"]), (3, 2, 12))
         self.assertEqual([names["name"] for names in model["names"].values()], ["000000", "000001"])
-        self.assertEqual(model["samples"]["reasons"], [{"path": "objects/bowl/place", "why": "no room", "times": 1, "example": "5"},
-                                                       {"path": "objects/cup#1/place", "why": "no room <b>here</b>", "times": 1, "example": "4"}])
-        self.assertEqual((model["samples"]["samples"], model["samples"]["touched"]), (3, 2))
+        self.assertEqual(model["samples"]["reasons"], [{"path": "objects/cup#1/place", "why": "no room <b>here</b>", "times": 2, "example": "4"},
+                                                       {"path": "objects/bowl/place", "why": "no room", "times": 1, "example": "5"}])
+        self.assertEqual((model["samples"]["samples"], model["samples"]["touched"], model["samples"]["reasonCount"]), (4, 3, 2))
         self.assertIn("broken", model["notes"][0])
         self.assertEqual(model["seen"]["objects"][0]["scenes"], 2)
 
@@ -211,9 +260,89 @@ class Report(Case):
         self.dgtk("export", folder, "--format", "coco", "-o", self.path("coco"), "--quiet")
         model = model_of(self.report(folder, "--export", self.path("coco")))
         self.assertTrue(model["verification"]["passed"])
-        self.assertEqual(len(model["verification"]["residuals"]), len(load_json(os.path.join(folder, "verification.json"))["residuals"]))
+        verification = load_json(os.path.join(folder, "verification.json"))
+        for here, there in (("residuals", "residuals"), ("unchecked", "not_checked")):
+            self.assertEqual(model["verification"][here], [{key: None if isinstance(value, (list, dict)) else value for key, value in row.items()}
+                                                           for row in verification[there]])
         stated = load_json(self.path("coco", "export.json"))
-        self.assertEqual((model["exports"][0]["format"], len(model["exports"][0]["layers"])), ("coco", len(stated["layers"])))
+        self.assertEqual((model["exports"][0]["format"], model["exports"][0]["files"]), ("coco", len(stated["files"])))
+        self.assertEqual([(one["layer"], one["largest"], one["values"], one["withoutCode"]) for one in model["exports"][0]["layers"]],
+                         [(one["layer"], one["largest_rounding"], one["values"], one["without_code"]) for one in stated["layers"]])
+
+    def test_plans(self):
+        """Cameras and objects from above, with the directions from which objects are seen, for both axes that may be up."""
+        for up in "yz":
+            scene = self.write("scene.json", json.dumps({
+                "version": 1, "units": "metre", "upAxis": up,
+                "objects": [{"name": "crate", "model": os.path.join(SOURCE, "Data/Models/crate.ac"), "position": [0.5, 0.25, -0.5], "orientation": [0.8, 0.4, 0.2, -0.4]},
+                            {"name": "brick", "model": os.path.join(SOURCE, "Data/Models/brick.ac"), "position": {"keys": [[0, [-1, 0, 0]], [59, [1.5, 1, 0.5]]]}, "scale": [1, 2, 3]},
+                            {"name": "gone", "model": os.path.join(SOURCE, "Data/Models/gear.ac"), "position": {"keys": [[0, [0, 1, 0]], [59, [0, -1, 0]]]},
+                             "visible": {"keys": [[0, True], [20, False]]}}],
+                "cameras": [{"name": "a", "width": 24, "height": 18, "fovY": 50, "near": 0.1, "far": 50, "eye": {"keys": [[0, [1, 2, 6]], [59, [-4, 3, 5]]]}, "lookAt": [0, 0, 0]},
+                            {"name": "round", "model": "equirectangular", "width": 24, "height": 12, "near": 0.1, "far": 50, "eye": [0, 0.5, 2], "lookAt": [3, 0, 3.5]}]}))
+            folder = self.path("data-" + up)
+            self.dgtk("render", scene, "-o", folder, "--quiet", "--layers", "objects,boxes,depth", "--visibility", "ray")
+            model = model_of(self.report(folder, "--pictures", "3"))
+            plan, cameras, poses = model["plans"][0], *(load_json(os.path.join(folder, name + ".json"))[name] for name in ("cameras", "poses"))
+            frames = [i * 59 // 47 for i in range(48)]  # evenly, with both ends
+            self.assertEqual((plan["up"], plan["units"], plan["frames"]), (up, "metre", frames))
+            self.assertEqual((plan["allFrames"], plan["allCameras"], plan["allObjects"]), (60, 2, 3))
+            eyes = {(one["name"], one["frame"]): -np.array(one["R"]).T @ one["t"] for one in cameras}
+            for camera in plan["cameras"]:
+                np.testing.assert_allclose([place[1:4] for place in camera["places"]], [from_above(eyes[camera["name"], frame], up) for frame in frames], atol=1e-5)
+                ahead = [next(one["R"][2] for one in cameras if (one["name"], one["frame"]) == (camera["name"], frame)) for frame in frames]
+                np.testing.assert_allclose([place[4:] for place in camera["places"]], from_above(ahead, up)[:, :2], atol=1e-5)
+            self.assertNotIn("half", plan["cameras"][1])
+
+            # behind a panorama's middle depths are negative
+            depth = np.stack([np.load(os.path.join(folder, f"round/depth/{frame:06d}.npy")) for frame in range(60)])
+            found = next(layer["numbers"] for layer in model["layers"] if layer["label"] == "depth")
+            self.assertEqual(found["negative"], int((depth < 0).sum()))
+            self.assertGreater(found["negative"], 0)
+            self.assertEqual(found["least"], depth.min())
+            self.assertEqual(sum(number for _, number in found["bins"]), found["values"] - found["negative"])
+
+            # boxes of the objects' own axes, as the first list says them
+            record = next(one for one in cameras if (one["name"], one["frame"]) == ("a", 0))
+            boxes = load_json(os.path.join(folder, "a/boxes/000000.json"))["objects"]
+            own = {}
+            for box in boxes:
+                matrix = np.array(box["matrix"])
+                own[box["id"]] = (np.array(box["box3d"]) - matrix[:, 3]) @ np.linalg.inv(matrix[:, :3]).T
+            self.assertEqual([(one["id"], one["static"]) for one in plan["objects"]], [(1, True), (2, False), (3, False)])
+            placed = {(one["frame"], one["id"]): one for one in poses}
+            for one in plan["objects"]:
+                shown = [frame for frame in frames if placed[frame, one["id"]]["visible"]][:1 if one["static"] else None]
+                self.assertEqual([place[0] for place in one["places"]], shown)
+                for place in one["places"]:
+                    matrix = np.array(placed[place[0], one["id"]]["matrix"])
+                    np.testing.assert_allclose(place[1:4], from_above(matrix[:, 3], up), atol=1e-5)
+                    corners = from_above(own[one["id"]] @ matrix[:, :3].T + matrix[:, 3], up)
+                    np.testing.assert_allclose(np.reshape(place[4:], (8, 2)), corners[:, :2], atol=1e-5)
+
+            # directions in the objects' own axes, of the pictures in which they are seen: azimuth, and the sine of elevation
+            bins = np.zeros((12, 24), int)
+            for (camera, frame), eye in eyes.items():
+                ids = ids_of(os.path.join(folder, f"{camera}/objects/{frame:06d}.ppm"))
+                for one in (placed[frame, id] for id in range(1, 4) if (ids == id).any()):
+                    x, y, z = from_above(np.array(one["R"]).T @ (eye - one["t"]), up)
+                    bins[int((z / np.sqrt(x * x + y * y + z * z) + 1) / 2 * 12), int((np.arctan2(-y, x) / (2 * np.pi) + 0.5) * 24)] += 1
+            self.assertEqual((model["viewpoints"]["columns"], model["viewpoints"]["rows"], model["viewpoints"]["views"]), (24, 12, bins.sum()))
+            np.testing.assert_array_equal(np.reshape(model["viewpoints"]["bins"], (12, 24)), bins)
+            self.assertLess(bins.sum(), 2 * 60 * 3)
+
+    def test_what_is_left_out_of_long_lists(self):
+        objects = [{"name": f"o{i}", "model": os.path.join(SOURCE, "Data/Models/brick.ac"), "position": [i % 20 - 10, i // 20 - 8, 0], "class": f"c{i}"} for i in range(310)]
+        cameras = [{"name": f"c{i:03d}", "width": 8, "height": 6, "fovY": 50, "near": 0.1, "far": 50, "eye": [i / 10 - 5, 0, 20], "lookAt": [0, 0, 0]} for i in range(104)]
+        scene = self.write("many.json", json.dumps({"version": 1, "objects": objects, "cameras": cameras}))
+        self.dgtk("render", scene, "-o", self.path("many"), "--quiet", "--layers", "objects", "--visibility", "ray")
+        model = model_of(self.report(self.path("many"), "--pictures", "1"))
+        plan, seen = model["plans"][0], model["seen"]
+        self.assertEqual((len(plan["cameras"]), plan["allCameras"], len(plan["objects"]), plan["allObjects"]), (100, 104, 300, 310))
+        self.assertEqual((len(seen["objects"]), seen["objectCount"], len(seen["classes"]), seen["classCount"]), (200, 310, 200, 310))
+        self.assertEqual((len(model["frames"]["emptiest"]), len(model["frames"]["largest"])), (24, 24))
+        self.assertEqual([len(model["names"]["0"][key]) for key in ("objects", "classes")], [310, 310])
+        self.assertEqual(len(model["colors"]), 256)
 
     def test_refusals(self):
         page = self.path("page.html")
@@ -241,6 +370,7 @@ class Report(Case):
 class Page(Report):
     """The same datasets in a browser."""
     test_numbers = test_fewer_samples_than_pixels = test_subset_and_same_bytes = test_folder_of_scenes = test_documents_beside = test_refusals = None
+    test_plans = test_what_is_left_out_of_long_lists = None
 
     def setUp(self):
         super().setUp()
