@@ -123,6 +123,10 @@ class Correspond(Case):
         views = ["--from", "left", "--to", "right"]
         self.refused("correspond", STEREO, *views, "--points", points, status=3, says=("points.txt:2", "two numbers"))
         self.refused("correspond", STEREO, *views, "--points", self.write("far.txt", "400 10"), status=2, says="outside")
+        for far in ("320.001 10", "10 240.001", "-0.001 10", "10 -0.001"):
+            self.refused("correspond", STEREO, *views, "--points", self.write("far.txt", far), status=2, says="expected 0 to 320, 0 to 240")
+        corners = self.write("corners.txt", "0 0\n320 0\n0 240\n320 240")  # the borders of the image belong to it
+        self.assertEqual(len(json.loads(self.dgtk("correspond", STEREO, *views, "--points", corners, "--json").stdout)["matches"]), 4)
         self.refused("correspond", STEREO, "--from", "middle", "--to", "right", "--points", points, status=2, says="'middle'")
         self.refused("correspond", STEREO, "--from", "left", "--points", points, status=2, says="--to")
         self.refused("correspond", STEREO, "--from", "left@7", "--to", "right", "--points", points, status=2, says="frame")

@@ -179,6 +179,8 @@ class Report(Case):
         boxes = [box for path in paths if "/boxes/" in path for box in load_json(os.path.join(folder, path))["objects"]]
         shares = [box["pixels_visible"] / box["pixels_amodal"] for box in boxes if box["pixels_amodal"] > 0]
         self.assertEqual(model["seen"]["boxes"]["shares"]["bins"], np.histogram(shares, 20, (0, 1))[0].tolist())
+        found = model["seen"]["boxes"]["shares"]
+        self.assertEqual((found["values"], found["zero"], found["one"]), (len(shares), shares.count(0), shares.count(1)))
         self.assertEqual(model["seen"]["boxes"]["hidden"], sum(box["pixels_visible"] == 0 for box in boxes))
         sides = [max(b[2] - b[0], b[3] - b[1]) for b in (box["box_visible"] for box in boxes) if b]
         found = model["seen"]["boxes"]["sizes"]
@@ -205,8 +207,11 @@ class Report(Case):
 
     def test_fewer_samples_than_pixels(self):
         folder = self.path("large")
-        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--layers", "color,depth", "--size", "1500x300", "--cameras", "left", "--frames", "0")
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--layers", "color,depth", "--size", "1500x300", "--cameras", "left", "--frames", "0",
+                  "--color-format", "exr,png", "--depth-format", "png,npy")
         page = self.report(folder)
+        color, depth = model_of(page)["layers"]
+        self.assertEqual(("brightness" in color, "numbers" in depth), (True, True), "pictures of colours, and depths as numbers")
         size, values = block_of(page, 1, 0)
         self.assertEqual((size, values.shape), ((1500, 300), (128, 640, 1)))
         file = np.load(os.path.join(folder, "left/depth/000000.npy"))
@@ -279,7 +284,7 @@ class Report(Case):
                             {"name": "gone", "model": os.path.join(SOURCE, "Data/Models/gear.ac"), "position": {"keys": [[0, [0, 1, 0]], [59, [0, -1, 0]]]},
                              "visible": {"keys": [[0, True], [20, False]]}}],
                 "cameras": [{"name": "a", "width": 24, "height": 18, "fovY": 50, "near": 0.1, "far": 50, "eye": {"keys": [[0, [1, 2, 6]], [59, [-4, 3, 5]]]}, "lookAt": [0, 0, 0]},
-                            {"name": "round", "model": "equirectangular", "width": 24, "height": 12, "near": 0.1, "far": 50, "eye": [0.6, -1.5, -2], "lookAt": [9, -1.5, -2]}]}))
+                            {"name": "round", "model": "equirectangular", "width": 24, "height": 12, "near": 0.1, "far": 50, "eye": [0, 0.5, 2], "lookAt": [3, 0, 3.5]}]}))
             folder = self.path("data-" + up)
             self.dgtk("render", scene, "-o", folder, "--quiet", "--layers", "objects,boxes,depth", "--visibility", "ray")
             model = model_of(self.report(folder, "--pictures", "3"))

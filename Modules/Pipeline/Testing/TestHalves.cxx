@@ -78,6 +78,14 @@ TEST_F(Halves, WorldUnitsOfAPixel)
   const SurfaceResolution twice = surfaceResolution(*this->stage(), 0, 0, 2 * halvesWidth, 2 * halvesHeight);
   EXPECT_EQ(twice.pixels, std::size_t(4 * halvesWidth * halvesHeight));
   EXPECT_DOUBLE_EQ(twice.smallest, 5 / 80.0);
+  // 13 of 32 columns show the near one, or 19
+  for (const auto& [cx, median] : { std::pair(13, 8), { 19, 5 } })
+  {
+    std::string text = readFile(this->path("scene.json"));
+    text.replace(text.find("40, 0, 16"), 9, "40, 0, " + std::to_string(cx));
+    writeFile(this->path("aside.json"), text);
+    EXPECT_DOUBLE_EQ(surfaceResolution(*Stage::load(readScene(this->path("aside.json"))), 0, 0).median, median / 40.0);
+  }
 }
 
 /// A pinhole's pixel, seen along its own ray: the solid angle falls with the cube of the ray's length at depth 1.

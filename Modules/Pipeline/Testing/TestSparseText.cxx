@@ -53,6 +53,20 @@ TEST(SparseText, IsReadBackAsItWas)
   EXPECT_EQ(bare[0].matches.size(), 2u);
 }
 
+TEST(SparseText, OtherCommentsAreNoViews)
+{
+  const auto viewOf = [](const std::string& line) { return parseSparseText(line + "\n1 2 3 4 1 1\n", "x").at(0).from; };
+  for (const char* line : { "# from @3 640x480", "# from left 640x480", "# from left@3", "# from left@-1 640x480",
+         "# from left@3 0x480", "# from left@3 640x0", "# from left@3 640x480px", "# from left@3 1048577x1",
+         "# from left@3 1x1048577", "# to left@3 640x480", "# left@3 640x480" })
+  {
+    const SparseView view = viewOf(line);
+    EXPECT_TRUE(view == SparseView()) << line << ": " << view.camera << ' ' << view.frame;
+  }
+  EXPECT_TRUE((viewOf("# from a@0 1048576x1\r") == SparseView{ "a", 0, 1048576, 1 })) << "the largest image";
+  EXPECT_TRUE((viewOf("# from a@b@12 1x1048576") == SparseView{ "a@b", 12, 1, 1048576 }));
+}
+
 TEST(SparseText, PointsAreThoseOfListsAndOfMatches)
 {
   const std::vector<Eigen::Vector2d> points = parsePoints("# x y\n1, 2\n\n" + sparseText(exampleSet()), "x");

@@ -29,15 +29,45 @@ WorldMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
   return mesh;
 }
 
-/// A folder of one sample: a brick at a height over the table's top, turned a little about the vertical. A word of its
-/// record is replaced.
-VerificationReport bricks(double above, const std::string& word = "", const std::string& instead = "")
+WorldMesh together(WorldMesh a, const WorldMesh& b)
+{
+  for (const WorldTriangle& t : b.triangles)
+  {
+    a.add(t);
+  }
+  return a;
+}
+
+/// A closed bar along z, of an L: what is left of a square of side 2 without its last quarter.
+WorldMesh angleBar()
+{
+  const double outline[6][2] = { { 1, 1 }, { 1, 2 }, { 0, 2 }, { 0, 0 }, { 2, 0 }, { 2, 1 } };
+  const auto corner = [&](int i, double z) { return Eigen::Vector3d(outline[i % 6][0], outline[i % 6][1], z); };
+  WorldMesh mesh;
+  for (int i = 0; i < 6; ++i)
+  {
+    mesh.add({ corner(i, -5), corner(i + 1, -5), corner(i + 1, 5) });
+    mesh.add({ corner(i, -5), corner(i + 1, 5), corner(i, 5) });
+  }
+  for (int i = 1; i < 5; ++i) // all of it is seen from the inner edge
+  {
+    mesh.add({ corner(0, -5), corner(i + 1, -5), corner(i, -5) });
+    mesh.add({ corner(0, 5), corner(i, 5), corner(i + 1, 5) });
+  }
+  return mesh;
+}
+
+/// An object of a scene, by its model's name and what more is said of it.
+std::string object(const std::string& name, const std::string& model, const std::string& more)
+{
+  return R"({ "name": ")" + name + R"(", "model": ")" + test::sourceFile("Data/Models/" + model + ".ac") + '"' + more +
+         " }";
+}
+
+/// A folder of one sample, whose brick was placed. A word of its record is replaced.
+VerificationReport samples(const std::string& scene, const std::string& word = "", const std::string& instead = "")
 {
   const test::TemporaryFolder folder;
-  const std::string scene =
-    R"({ "seed": 7, "objects": [ { "name": "table", "model": ")" + test::sourceFile("Data/Models/table.ac") +
-    R"(" }, { "name": "brick", "model": ")" + test::sourceFile("Data/Models/brick.ac") +
-    R"(", "orientation": [0.98, 0, 0.2, 0], "position": [0.1, )" + std::to_string(0.75 + above) + ", 0.1] } ] }";
   writeFile(folder.path("000000.json"), scene);
   std::string record =
     R"({ "complete": true, "first": 0, "last": 0, "samples": [ { "sample": 0, "file": "000000.json", "seed": 7, "sha256": ")" +
@@ -48,6 +78,16 @@ VerificationReport bricks(double above, const std::string& word = "", const std:
   writeFile(folder.path("samples.json"), record.replace(place, word.size(), instead));
   EXPECT_TRUE(isSampleFolder(folder.path("")));
   return verifySamples(folder.path(""));
+}
+
+/// A brick at a height over the table's top, turned a little about the vertical.
+VerificationReport bricks(double above, const std::string& word = "", const std::string& instead = "")
+{
+  const std::string place =
+    R"(, "orientation": [0.98, 0, 0.2, 0], "position": [0.1, )" + std::to_string(0.75 + above) + ", 0.1]";
+  return samples(
+    R"({ "seed": 7, "objects": [ )" + object("table", "table", "") + ", " + object("brick", "brick", place) + " ] }",
+    word, instead);
 }
 
 const Residual& residual(const VerificationReport& report, const std::string& check)
@@ -73,6 +113,42 @@ TEST(MeshOverlap, DepthsAreThoseOfBoxes)
   EXPECT_TRUE(surfacesCross(box({ -0.2, 0.5001, -0.3 }, { 0.8, 1.4, 0.7 }), cube, { 0, -0.001, 0 }));
 }
 
+TEST(MeshOverlap, OnlyClosedPartsHaveAnInside)
+{
+  const WorldMesh cube = box({ -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 });
+  const WorldMesh small = box({ -0.1, -0.1, -0.1 }, { 0.1, 0.1, 0.1 });
+  EXPECT_NEAR(overlapDepth(small, cube), 0.4, 1e-12);
+  EXPECT_NEAR(overlapDepth(cube, small), 0.4, 1e-12);
+  WorldMesh lidless;
+  for (std::size_t i = 1; i < cube.triangles.size(); ++i)
+  {
+    lidless.add(cube.triangles[i]);
+  }
+  EXPECT_EQ(overlapDepth(small, lidless), 0);
+  // A sheet beside the cube takes nothing from it; a second cube, whose planes go by nearer than the first one's sides,
+  // and what lies between the two is in neither.
+  WorldMesh sheet;
+  sheet.add({ Eigen::Vector3d(5, 0, 0), Eigen::Vector3d(6, 0, 0), Eigen::Vector3d(5, 1, 0) });
+  EXPECT_NEAR(overlapDepth(small, together(cube, sheet)), 0.4, 1e-12);
+  const WorldMesh two = together(cube, box({ 2, 0.12, 0.12 }, { 3, 1.12, 1.12 }));
+  EXPECT_NEAR(overlapDepth(small, two), 0.4, 1e-12);
+  EXPECT_EQ(overlapDepth(box({ 1, 0.2, 0.2 }, { 1.2, 0.4, 0.4 }), two), 0);
+}
+
+TEST(MeshOverlap, TheNearestPlaceMayBeAnEdgeOrACorner)
+{
+  const auto at = [](const Eigen::Vector3d& x)
+  {
+    WorldMesh mesh;
+    mesh.add({ x, x, x });
+    return mesh;
+  };
+  EXPECT_NEAR(overlapDepth(at({ 0.7, 0.6, 1 }), angleBar()), 0.5, 1e-12) << "of the inner edge";
+  EXPECT_NEAR(overlapDepth(at({ 0.7, 1.2, 1 }), angleBar()), 0.3, 1e-12) << "of a side";
+  EXPECT_NEAR(overlapDepth(at({ 0.5, 0.5, 4.9 }), angleBar()), 0.1, 1e-12) << "of an end";
+  EXPECT_EQ(overlapDepth(at({ 1.1, 1.1, 1 }), angleBar()), 0) << "in the corner that is left out";
+}
+
 TEST(SampleVerification, SeesWhatHoversAndWhatSinks)
 {
   EXPECT_TRUE(bricks(0.0003).passed());
@@ -88,6 +164,37 @@ TEST(SampleVerification, SeesWhatHoversAndWhatSinks)
   const VerificationReport sinks = bricks(-0.0006);
   EXPECT_FALSE(sinks.passed());
   EXPECT_EQ(sinks.firstBreach()->check, "penetration");
+}
+
+TEST(SampleVerification, DownIsWhereTheSceneSaysSo)
+{
+  const std::string lying = R"(, "orientation": [0.7071067811865476, 0.7071067811865476, 0, 0])";
+  const auto above = [&](double height)
+  {
+    return samples(
+      R"({ "seed": 7, "upAxis": "z", "objects": [ )" + object("table", "table", lying) + ", " +
+      object("brick", "brick", lying + R"(, "position": [0.1, -0.1, )" + std::to_string(0.75 + height) + "]") + " ] }");
+  };
+  EXPECT_TRUE(above(0.0003).passed());
+  EXPECT_LE(residual(above(0.0003), "gap").largest, 0.75);
+  EXPECT_FALSE(above(0.0007).passed());
+}
+
+TEST(SampleVerification, WhatAnObjectCarriesIsOneWithIt)
+{
+  const auto with = [](const std::string& parent)
+  {
+    const std::string second = R"(, "position": [0.01, 0.01, 0])" + parent;
+    return samples(R"({ "seed": 7, "objects": [ )" + object("table", "table", "") + ", " +
+                   object("brick", "brick", R"(, "position": [0.1, 0.7503, 0.1])") + ", " +
+                   object("second", "brick", second) + " ] }");
+  };
+  EXPECT_TRUE(with(R"(, "parent": "brick")").passed()) << "within the first one";
+  EXPECT_TRUE(with("").passed()) << "far below, at the table's foot";
+  const VerificationReport there = samples(R"({ "seed": 7, "objects": [ )" + object("brick", "brick", "") + ", " +
+                                           object("second", "brick", R"(, "position": [0.01, 0.01, 0])") + " ] }");
+  EXPECT_FALSE(there.passed());
+  EXPECT_EQ(there.firstBreach()->check, "penetration");
 }
 
 TEST(SampleVerification, TheRecordAgreesWithItselfAndItsFiles)
