@@ -102,13 +102,14 @@ class Notes(Case):
     def test_blind_cameras_and_empty_scenes_deserve_a_word(self):
         away = camera("away", eye=[0, 0, 5], lookAt=[0, 0, 9])
         near = camera("near", far=2)
-        beside = camera("beside", eye=[9, 0, 5], lookAt=[9, 0, 0])
+        past = camera("past", near=6)
+        beside = [camera(name, eye=[x, y, 5], lookAt=[x, y, 0]) for name, x, y in (("right", 9, 0), ("left", -9, 0), ("above", 0, 9), ("below", 0, -9))]
         plan = camera("plan", model="orthographic", eye=[5, 0, 5], lookAt=[5, 0, 0])
         late = camera("late", eye={"keys": [[0, [90, 0, 5]], [3, [0, 0, 5]]]}, lookAt=[0, 0, 0],
                       fovY={"keys": [[0, 1e-6], [3, 60]]})
-        self.scene(cameras=[camera(), away, near, beside, plan, late])
+        self.scene(cameras=[camera(), away, near, past, *beside, plan, late])
         said = self.render("objects", "--objects-format", "npy").stderr
-        blind = ["away", "near", "beside", "plan"]
+        blind = ["away", "near", "past", "right", "left", "above", "below", "plan"]
         self.assertEqual(self.manifest()["warnings"],
                          [f"camera '{name}' sees no object at any frame of this run" for name in blind])
         for name in blind:

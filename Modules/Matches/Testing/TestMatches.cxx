@@ -3,6 +3,7 @@
 #include "dgtkMatchPane.h"
 #include "dgtkMatchTable.h"
 #include "dgtkTestWidgets.h"
+#include "dgtkTruthPicture.h"
 
 #include <QApplication>
 #include <QImage>
@@ -12,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -302,6 +304,65 @@ TEST_F(MatchPaneTable, MarksAndLinesArePainted)
   EXPECT_GT(reds({ 70, 120, 21, 21 }), 2 * small) << "the one that is looked at";
   this->Pane->setMarks({ { QPointF(20, 20), QColor(255, 0, 0), "7", false } });
   EXPECT_GT(reds({ 86, 110, 20, 20 }), 0) << "its number";
+}
+
+TEST_F(MatchPaneTable, PixelsThatAreLargeHaveAGrid)
+{
+  this->Pane->setMessage("-");
+  const QColor empty(28, 28, 31);
+  const auto zoom = [&] { return this->Pane->toWidget({ 1, 0 }).x() - this->Pane->toWidget({ 0, 0 }).x(); };
+  const auto painted = [&](const QPointF& at) { return this->Pane->grab().toImage().pixelColor(at.toPoint()); };
+  const auto brightest = [&](const QPointF& at) // lines may be rounded either way
+  {
+    int red = 0;
+    for (const QPointF& beside : { QPointF(-1, -1), QPointF(0, 0), QPointF(1, 1) })
+    {
+      red = std::max(red, painted(at + beside).red());
+    }
+    return red;
+  };
+  this->wheel({ 0, 50 }, 5); // the picture's corner stays where it is
+  ASSERT_NEAR(zoom(), 4 * std::exp(1.25), 1e-9);
+  for (int k = 0; k < 20; ++k)
+  {
+    EXPECT_EQ(painted({ this->Pane->toWidget({ double(k), 0 }).x(), 75 }) == empty, k > 0) << "smaller than 14 pixels";
+  }
+  this->wheel({ 0, 50 }, 6);
+  ASSERT_NEAR(zoom(), 4 * std::exp(2.75), 1e-9);
+  for (int k = 1; k < 6; ++k)
+  {
+    const double border = this->Pane->toWidget({ double(k), 0 }).x();
+    const double middle = this->Pane->toWidget({ k + 0.5, 0 }).x();
+    const double row = this->Pane->toWidget({ 0, 1.5 }).y();
+    EXPECT_GT(brightest({ border, row }), 40) << k;
+    EXPECT_EQ(painted({ middle, row }), empty) << k;
+    EXPECT_EQ(painted({ border, 40 }), empty) << "above the picture";
+  }
+  for (int k = 1; k < 4; ++k)
+  {
+    const double column = this->Pane->toWidget({ 1.5, 0 }).x();
+    EXPECT_GT(brightest({ column, this->Pane->toWidget({ 0, double(k) }).y() }), 40) << k;
+    EXPECT_EQ(painted({ column, this->Pane->toWidget({ 0, k + 0.5 }).y() }), empty) << k;
+  }
+}
+
+TEST(TruthPicture, IsAsLargeAsItsWidgetAllows)
+{
+  EXPECT_EQ(TruthPicture::fitted({ 100, 50 }, { 400, 300 }), QRectF(0, 50, 400, 200));
+  EXPECT_EQ(TruthPicture::fitted({ 100, 200 }, { 400, 300 }), QRectF(125, 0, 150, 300));
+  EXPECT_EQ(TruthPicture::fitted({ 800, 600 }, { 400, 300 }), QRectF(0, 0, 400, 300));
+  LayerPicture picture;
+  picture.width = 3; // rows of 9 bytes, which images keep at multiples of 4
+  picture.height = 2;
+  for (std::uint8_t i = 0; i < 6; ++i)
+  {
+    picture.pixels.push_back({ i, std::uint8_t(10 * i), std::uint8_t(40 * i) });
+  }
+  const QImage image = imageOf(picture);
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(image.pixelColor(i % 3, i / 3), QColor(i, 10 * i, 40 * i));
+  }
 }
 
 TEST_F(MatchPaneTable, ThePictureEndsAtItsFrameAndMarksDoNot)

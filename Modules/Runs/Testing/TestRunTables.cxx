@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The log of a run and the page of its options, on no display.
 #include "dgtkRenderOptions.h"
+#include "dgtkRenderProcess.h"
+#include "dgtkRenderStatus.h"
 #include "dgtkRunFolder.h"
 #include "dgtkRunLog.h"
 
@@ -11,11 +13,16 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDateTime>
 #include <QDir>
+#include <QFile>
 #include <QFileInfo>
 #include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
+#include <QStatusBar>
 
 #include <gtest/gtest.h>
 
@@ -184,6 +191,56 @@ TEST_F(RunTables, ALogIsReadOnAndLockedWhileItsRunLives)
   EXPECT_EQ(RunLog::folders(), QStringList{ "/data/one" });
   other.markShown();
   EXPECT_EQ(RunLog::folders(), QStringList{ "/data/one" }) << "no log is begun by that";
+}
+
+TEST_F(RunTables, TheLatestRunComesFirst)
+{
+  const char* const folders[] = { "/data/one", "/data/two", "/data/three" };
+  const int ages[] = { 50, 10, 30 }; // seconds
+  for (int i = 0; i < 3; ++i)
+  {
+    writeLog(folders[i], "");
+    QFile log(QFileInfo(RunLog(folders[i]).sceneCopy()).path() + "/run.log");
+    ASSERT_TRUE(log.open(QIODevice::ReadWrite));
+    ASSERT_TRUE(log.setFileTime(QDateTime::currentDateTime().addSecs(-ages[i]), QFileDevice::FileModificationTime));
+  }
+  EXPECT_EQ(RunLog::folders(), (QStringList{ "/data/two", "/data/three", "/data/one" }));
+}
+
+TEST_F(RunTables, TheStatusBarSaysHowFarARunIs)
+{
+  QStatusBar bar;
+  RenderStatus status(&bar);
+  auto* const text = status.findChild<QPushButton*>("renderStatusText");
+  auto* const progress = status.findChild<QProgressBar*>("renderStatusProgress");
+  ASSERT_TRUE(text && progress);
+  EXPECT_TRUE(status.isHidden());
+  status.showProgress(-1, "");
+  EXPECT_EQ(text->text(), "Rendering ...");
+  EXPECT_EQ(progress->maximum(), 0) << "it moves, as nothing is known";
+  EXPECT_FALSE(status.isHidden() || progress->isHidden());
+  status.showProgress(0, "");
+  EXPECT_EQ(text->text(), "Rendering: 0 %");
+  EXPECT_EQ(progress->maximum(), 1000);
+  status.showProgress(0.256, "0:10");
+  EXPECT_EQ(text->text(), "Rendering: 25 %, 0:10 left");
+  EXPECT_EQ(progress->value(), 256);
+  status.showEnd("Done", "12 pictures");
+  EXPECT_EQ(text->text(), "Done");
+  EXPECT_EQ(text->toolTip(), "12 pictures");
+  EXPECT_TRUE(progress->isHidden());
+  status.showProgress(1, "");
+  EXPECT_EQ(text->text(), "Rendering: 100 %");
+  EXPECT_EQ(progress->value(), 1000);
+  EXPECT_FALSE(progress->isHidden());
+  EXPECT_NE(text->toolTip(), "12 pictures");
+}
+
+TEST_F(RunTables, CommandsCanBePastedIntoAShell)
+{
+  EXPECT_EQ(shellLine({ "dgtk", "render", "a/b-1_2.json", "--frames", "0:3", "x,y=%1@+" }),
+    "dgtk render a/b-1_2.json --frames 0:3 x,y=%1@+");
+  EXPECT_EQ(shellLine({ "a b", "", "it's", "$x", "a\nb" }), "'a b' '' 'it'\\''s' '$x' 'a\nb'");
 }
 
 TEST_F(RunTables, WhatStandsInAFolder)
