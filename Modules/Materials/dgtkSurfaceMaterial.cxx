@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSurfaceMaterial.h"
 
-#include <Eigen/Geometry>
+#include "dgtkCofactors.h"
+
 #include <Eigen/LU>
 
 #include <cmath>
@@ -22,11 +23,7 @@ FacetedSurface facetsOf(const Material& material)
 
 Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m)
 {
-  Eigen::Matrix3d cofactors;
-  for (int c = 0; c < 3; ++c)
-  {
-    cofactors.col(c) = m.col((c + 1) % 3).cross(m.col((c + 2) % 3));
-  }
+  const Eigen::Matrix3d cofactors = cofactorsOf(m);
   const double size = cofactors.cwiseAbs().maxCoeff();
   return cofactors * ((m.determinant() < 0 ? -1.0 : 1.0) / (size > 0 ? size : 1.0));
 }

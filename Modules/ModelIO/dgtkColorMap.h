@@ -23,6 +23,17 @@ inline std::array<std::uint8_t, 4> colorMapTexel(const Image& map, const Eigen::
   return { texel[0], texel[1], texel[2], texel[3] };
 }
 
+/// The colour of a vertex, R, G, B, A, whichever way the model has it; white where it has none.
+inline std::array<std::uint8_t, 4> vertexColor(const Model& model, std::size_t vertex)
+{
+  if (!model.colors.empty())
+  {
+    return model.colors[vertex];
+  }
+  return model.colorMap ? colorMapTexel(*model.colorMap, model.colorMapAt[vertex])
+                        : std::array<std::uint8_t, 4>{ 255, 255, 255, 255 };
+}
+
 /// Whether some colour of the vertices lets see what is behind.
 inline bool hasTranslucentColors(const Model& model)
 {

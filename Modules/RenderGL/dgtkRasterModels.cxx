@@ -34,8 +34,7 @@ vtkSmartPointer<vtkUnsignedCharArray> colorsOf(const Model& model, const RasterT
   vtkIdType at = 0;
   for (const std::uint32_t vertex : topology.source)
   {
-    const auto color = model.colorMap ? colorMapTexel(*model.colorMap, model.colorMapAt[vertex]) : model.colors[vertex];
-    colors->SetTypedTuple(at++, color.data());
+    colors->SetTypedTuple(at++, vertexColor(model, vertex).data());
   }
   return colors;
 }

@@ -224,6 +224,17 @@ class Report(Case):
             area = color[j * 300 // 128:(j + 1) * 300 // 128, i * 1500 // 640:(i + 1) * 1500 // 640]
             self.assertLessEqual(np.abs(drawn[j, i] - area.mean(axis=(0, 1))).max(), 1, (j, i))
 
+    def test_all_pictures_together_are_of_three_million_samples(self):
+        folder = self.path("several")
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--size", "320x240", "--visibility", "ray",
+                  "--layers", "depth,distance,objects,classes,normal,position,uv")
+        page = self.report(folder)
+        sizes = {block_of(page, layer, shown)[1].shape[:2] for layer in range(7) for shown in range(6)}
+        [(height, width)] = sizes
+        self.assertEqual((width % 8, height), (0, width * 3 // 4))
+        self.assertLessEqual(42 * width * height, 3e6)
+        self.assertGreater(42 * (width + 8) * (height + 6), 3e6)
+
     def test_subset_and_same_bytes(self):
         folder = self.render(layers="depth,objects")
         whole = model_of(self.report(folder))
@@ -375,7 +386,7 @@ class Report(Case):
 class Page(Report):
     """The same datasets in a browser."""
     test_numbers = test_fewer_samples_than_pixels = test_subset_and_same_bytes = test_folder_of_scenes = test_documents_beside = test_refusals = None
-    test_plans = test_what_is_left_out_of_long_lists = None
+    test_all_pictures_together_are_of_three_million_samples = test_plans = test_what_is_left_out_of_long_lists = None
 
     def setUp(self):
         super().setUp()

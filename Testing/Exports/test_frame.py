@@ -196,6 +196,11 @@ class Frame(datasets.ExportCase):
                             ("--out-of-range: expected one of void, refuse", "coco", "--out-of-range", "clamp")):
             self.refused("export", whole, "--format", *more, "-o", target, status=2, says=says)
             self.assertFalse(os.path.exists(target))
+        for says, *splits in (("NAME=A:B", "=0:1", "train=0", "train:0=1", "train=0:x", "train=0:1x", "train=:1"), ("A <= B", "train=1:0", "a b=0:1"),
+                              ("do not overlap", "train=0:1,val=1:2", "val=1:2,train=0:1", "train=0:2,val=1:1", "train=0:0,train=1:1"),
+                              ("frames of the dataset", "train=0:0,val=9:10")):
+            for split in splits:
+                self.refused("export", whole, "--format", "coco", "-o", target, "--split", split, status=2, says=("--split: expected", says))
         for says, *more in (("lacks layers", "coco"),):
             self.refused("export", dataset, "--format", *more, "-o", target, status=2, says=says)
             self.assertFalse(os.path.exists(target))
@@ -210,6 +215,17 @@ class Frame(datasets.ExportCase):
         self.assertEqual([(one["camera"], one["frame"]) for one in record["names"]], [("fish flach", 0), ("fish flach", 1)])
         _, record = self.export(dataset, "tum", "--undistort")
         self.assertEqual(sorted({one["camera"] for one in record["names"]}), ["a wider view", "fish flach"])
+        # the twin looks where the lens does, and has its size where there is one of that; names do not decide
+        path = datasets.twins(self.path("more"))
+        scene = load_json(path)
+        for camera in scene["cameras"]:  # rolled about t, which stays
+            camera["lookAt"] = [0, 0, 0]
+        flat = scene["cameras"][-1]
+        scene["cameras"] += [{**flat, "name": "a small one", "width": 24, "height": 18}, {**flat, "name": "another turn", "up": [1, 2, 0]}]
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        _, record = self.export(self.render(path, "color,depth"), "tum", "--undistort", "--cameras", "fish.auge")
+        self.assertEqual({one["camera"] for one in record["names"]}, {"fish flach"})
         lenses = self.render(datasets.lenses(self.path("lenses")), "color,depth")
         said = self.dgtk("export", lenses, "--format", "tum", "-o", self.path("no"), "--undistort", status=2).stderr
         self.assertIn("camera 'fish' (fisheye) needs a pinhole twin", said)

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """KITTI's sets, read as its development kits do: io_disp.h, io_flow.h, the evaluations of stereo, flow, objects and odometry."""
+import json
 import math
 import os
 
 import numpy as np
 
 import datasets
-from datasets import layer_of, main, read_png
+from datasets import layer_of, load_json, main, read_png
 
 SCENE_FLOW = "color,disparity,disparity_forward,flow_forward,objects"
 
@@ -185,6 +186,19 @@ class Odometry(datasets.ExportCase):
             last = repr(0.001 + poses[-1][2, 3]).encode()
             said = self.planted(dataset, folder, "poses/00.txt", lambda text, last=last: text.rsplit(b" ", 1)[0] + b" " + last + b"\n")
             self.assertRegex(said, "layer (pose|poses|first pose)")
+
+    def test_a_camera_is_in_one_pair(self):
+        """Of three side by side the nearest two are a pair, and the third is alone, whatever their names are."""
+        path = datasets.stereo(self.path("three"), 1)
+        scene = load_json(path)
+        eyes = {"third": -0.2, "left": -0.06, "right": 0.06}
+        scene["cameras"] = [{**scene["cameras"][0], "name": name, "eye": [x, 0.2, 4.5], "lookAt": [x, 0.2, 0]} for name, x in eyes.items()]
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        folder, _ = self.export(self.render(path, "color"), "kitti-odometry", "--unit-metres", 2)
+        sequences = os.path.join(folder, "sequences")
+        self.assertEqual({name: sorted(os.listdir(os.path.join(sequences, name))) for name in sorted(os.listdir(sequences))},
+                         {"00": ["calib.txt", "image_2", "image_3", "times.txt"], "01": ["calib.txt", "image_2", "times.txt"]})
 
 
 def corners(label):

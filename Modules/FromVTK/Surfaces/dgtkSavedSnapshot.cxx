@@ -152,13 +152,11 @@ private:
   /// R, G, B and, where it is not opaque, A behind a vertex.
   std::string color(std::size_t vertex) const
   {
-    const bool mapped = this->From.colorMap && !this->MapIsTexture;
-    if (this->From.colors.empty() && !mapped)
+    if (this->From.colors.empty() && (!this->From.colorMap || this->MapIsTexture))
     {
       return {};
     }
-    const auto bytes =
-      mapped ? colorMapTexel(*this->From.colorMap, this->From.colorMapAt[vertex]) : this->From.colors[vertex];
+    const auto bytes = vertexColor(this->From, vertex);
     double numbers[4];
     for (std::size_t c = 0; c < 4; ++c)
     {

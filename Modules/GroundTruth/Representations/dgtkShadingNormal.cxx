@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCofactors.h"
 #include "dgtkSurfaceLoop.h"
 
 #include <Eigen/Geometry>
@@ -8,17 +9,6 @@ namespace dgtk
 
 namespace
 {
-/// Turns normals of an object into the camera frame: the inverse transpose up to a factor, negative where it mirrors.
-Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& camera_from_object)
-{
-  Eigen::Matrix3d cofactors;
-  for (int c = 0; c < 3; ++c)
-  {
-    cofactors.col(c) = camera_from_object.col((c + 1) % 3).cross(camera_from_object.col((c + 2) % 3));
-  }
-  return cofactors;
-}
-
 /// What the corners of a triangle have, camera frame.
 struct CornerNormals
 {
@@ -37,7 +27,7 @@ public:
   {
     const Instance& instance = this->In.state->instances[hit.object - 1];
     const Eigen::Matrix3d normals =
-      normalMatrix(this->In.view->camera_from_world.rotation * instance.world_from_object.linear);
+      cofactorsOf(this->In.view->camera_from_world.rotation * instance.world_from_object.linear);
     const auto& corners = instance.model->triangles[hit.triangle];
     const std::vector<Eigen::Vector3d>& p = instance.geometry->positions;
     CornerNormals result;

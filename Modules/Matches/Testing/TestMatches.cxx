@@ -327,7 +327,9 @@ TEST_F(MatchPaneTable, PixelsThatAreLargeHaveAGrid)
   {
     EXPECT_EQ(painted({ this->Pane->toWidget({ double(k), 0 }).x(), 75 }) == empty, k > 0) << "smaller than 14 pixels";
   }
-  this->wheel({ 0, 50 }, 6);
+  this->wheel({ 0, 50 }, 1);
+  EXPECT_GT(brightest({ 4 * std::exp(1.5), 50 + 6 * std::exp(1.5) }), 40) << "larger than 14";
+  this->wheel({ 0, 50 }, 5);
   ASSERT_NEAR(zoom(), 4 * std::exp(2.75), 1e-9);
   for (int k = 1; k < 6; ++k)
   {

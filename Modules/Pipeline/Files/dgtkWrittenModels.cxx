@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkWrittenModels.h"
 
+#include "dgtkColorMap.h"
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
 #include "dgtkLayerWriter.h"
@@ -28,29 +29,11 @@ const Texture* textureOf(const Model& model, const Material& material)
   return texture != nullptr && texture->image ? texture : nullptr;
 }
 
-/// Of a vertex, R, G, B, in [0, 1], that its material's colours are multiplied with.
-Eigen::Vector3d ownColor(const Model& model, std::uint32_t vertex)
-{
-  if (!model.colors.empty())
-  {
-    const std::array<std::uint8_t, 4>& color = model.colors[vertex];
-    return Eigen::Vector3d(color[0], color[1], color[2]) / most8;
-  }
-  if (model.colorMap)
-  {
-    const Image& image = *model.colorMap;
-    const Eigen::Vector2d& at = model.colorMapAt[vertex];
-    const auto place = [](double part, int size) { return std::clamp(int(std::floor(part * size)), 0, size - 1); };
-    const std::size_t texel =
-      std::size_t(place(1 - at.y(), image.height)) * std::size_t(image.width) + std::size_t(place(at.x(), image.width));
-    return Eigen::Vector3d(image.rgba[4 * texel], image.rgba[4 * texel + 1], image.rgba[4 * texel + 2]) / most8;
-  }
-  return Eigen::Vector3d::Ones();
-}
-
 Color colorOf(const Model& model, const Material& material, std::uint32_t vertex)
 {
-  const Eigen::Vector3d color = ownColor(model, vertex).cwiseProduct(material.diffuse) * most8;
+  const auto own = vertexColor(model, vertex);
+  const Eigen::Vector3d color =
+    (Eigen::Vector3d(own[0], own[1], own[2]) / most8).cwiseProduct(material.diffuse) * most8;
   Color bytes;
   for (int i = 0; i < 3; ++i)
   {

@@ -70,6 +70,48 @@ TEST(Generator, WhoeverCancelsAFolderOfScenesStopsTheSceneThatIsRendered)
   }
 }
 
+TEST(Generator, PicturesOfABegunSceneOfManyAreKept)
+{
+  const test::TemporaryFolder folder;
+  writeFile(folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+  std::filesystem::create_directory(folder.path("scenes"));
+  for (const char* const name : { "scenes/a.json", "scenes/b.json" })
+  {
+    writeFile(folder.path(name),
+      R"({ "version": 1, "keyFrames": [0, 39], "objects": [{ "name": "quad", "model": "../quad.obj" }],
+      "cameras": [{ "name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0] }] })");
+  }
+  std::atomic<bool> cancel{ true };
+  GeneratorCallbacks callbacks;
+  callbacks.cancel = &cancel;
+  GeneratorRequest request;
+  request.scene = folder.path("scenes");
+  request.folder = folder.path("all");
+  request.layers = { "depth" };
+  request.width = 16;
+  request.height = 12;
+  request.options["threads"] = "1";
+  EXPECT_TRUE(generateScenes(request, callbacks).interrupted);
+  // some pictures of the first scene, which another process might have made
+  GeneratorRequest one = request;
+  one.scene = folder.path("scenes/a.json");
+  one.folder = folder.path("all/a");
+  one.resume = true;
+  cancel = false;
+  GeneratorCallbacks stopping = callbacks;
+  stopping.progress = [&](const GeneratorProgress& state) { cancel = state.done > 0; };
+  const GeneratorResult begun = generate(one, stopping);
+  ASSERT_TRUE(begun.interrupted);
+  ASSERT_GT(begun.pictures, 0u);
+  cancel = false;
+  request.resume = true;
+  const GeneratorResult done = generateScenes(request, callbacks);
+  EXPECT_FALSE(done.interrupted);
+  EXPECT_EQ(done.kept, begun.pictures);
+  EXPECT_EQ(done.pictures, 80u);
+  EXPECT_EQ(done.files, 80u + 2 * 4 + 1) << "pictures, four documents of each dataset and the list of datasets";
+}
+
 TEST(SerialQueue, KeepsTheOrderOfEachQueueOnAnyNumberOfThreads)
 {
   for (const int threads : { 1, 2, 4 })

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkColorMap.h"
 #include "dgtkCutOutColors.h"
 #include "dgtkLightLaw.h"
 #include "dgtkSurfaceMaterial.h"
@@ -8,7 +9,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <array>
 #include <cmath>
+#include <memory>
 
 using namespace dgtk;
 
@@ -65,6 +68,22 @@ TEST(CutOutColors, TexelsAreThereFromTheMiddleOn)
   EXPECT_EQ(withoutHoles(whole), whole.rgba);
   const Image none = holed(2, { -1, -1, -1, -1 });
   EXPECT_EQ(withoutHoles(none), none.rgba);
+}
+
+TEST(VertexColor, IsTheVertexsOwnBeforeThatOfAMap)
+{
+  using Bytes = std::array<std::uint8_t, 4>;
+  Model model;
+  EXPECT_EQ(vertexColor(model, 1), (Bytes{ 255, 255, 255, 255 }));
+  const Image map = holed(2, { 10, 20, 30, 40 });
+  model.colorMap = std::make_shared<Image>(map);
+  model.colorMapAt = { { 0.25, 0.25 }, { 0.75, 0.25 }, { 0.5, 0.5 }, { -3, 9 } };
+  EXPECT_EQ(vertexColor(model, 0), (Bytes{ 30, 31, 32, 255 })) << "the lower row is the first";
+  EXPECT_EQ(vertexColor(model, 1), (Bytes{ 40, 41, 42, 255 }));
+  EXPECT_EQ(vertexColor(model, 2), (Bytes{ 20, 21, 22, 255 })) << "texels begin at their lower left";
+  EXPECT_EQ(vertexColor(model, 3), (Bytes{ 10, 11, 12, 255 })) << "beyond a border it goes on";
+  model.colors.assign(4, Bytes{ 1, 2, 3, 4 });
+  EXPECT_EQ(vertexColor(model, 1), (Bytes{ 1, 2, 3, 4 }));
 }
 
 TEST(SurfaceMaterial, FacetsAreAsWideAsPhongsLobe)
