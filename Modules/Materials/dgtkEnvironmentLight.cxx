@@ -204,6 +204,21 @@ Eigen::Vector3d halfVector(const Eigen::Vector2d& u, double alpha)
   return { sine * around.cosine, sine * around.sine, std::sqrt(cos2) };
 }
 
+/// Half vector about +z distributed as the GGX microfacets that are seen from `v` with y = 0 (Heitz 2018, listing 1).
+Eigen::Vector3d seenHalfVector(const Eigen::Vector2d& u, const Eigen::Vector3d& v, double alpha)
+{
+  const Eigen::Vector3d stretched = Eigen::Vector3d(alpha * v.x(), 0, v.z()).normalized();
+  const double radius = std::sqrt(u.x());
+  const portable::SineCosine around = portable::sinCos(2 * pi * u.y());
+  const double across = radius * around.cosine;
+  const double visible = (1 + stretched.z()) / 2;
+  const double up = (1 - visible) * std::sqrt(1 - across * across) + visible * radius * around.sine;
+  const double out = std::sqrt(std::max(0.0, 1 - across * across - up * up));
+  const double x = out * stretched.x() - up * stretched.z();
+  const double z = out * stretched.z() + up * stretched.x();
+  return Eigen::Vector3d(alpha * x, alpha * across, std::max(0.0, z)).normalized();
+}
+
 /// A light direction about +z seen from +z, its weight, and the solid angle that it stands for.
 struct LobeSample
 {
@@ -322,20 +337,20 @@ std::vector<float> reflectanceTable()
     {
       const double nv = (column + 0.5) / size;
       const Eigen::Vector3d v(std::sqrt(1 - nv * nv), 0, nv);
+      const double viewer = std::sqrt(nv * nv * (1 - a2) + a2);
       double scale = 0;
       double bias = 0;
       for (std::uint32_t i = 0; i < count; ++i)
       {
-        const Eigen::Vector3d h = halfVector(hammersley(i, count), alpha);
+        const Eigen::Vector3d h = seenHalfVector(hammersley(i, count), v, alpha);
         const double vh = std::max(v.dot(h), 0.0);
         const double nl = 2 * vh * h.z() - nv;
-        if (nl <= 0 || h.z() <= 0)
+        if (nl <= 0)
         {
           continue;
         }
-        const double masking =
-          2 * nl * nv / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
-        const double weight = masking * vh / (h.z() * nv);
+        // what of the seen facets the light reaches, too (Heitz 2014, eq. 99)
+        const double weight = nl * (nv + viewer) / (nl * viewer + nv * std::sqrt(nl * nl * (1 - a2) + a2));
         const double fresnel = (1 - vh) * (1 - vh) * ((1 - vh) * (1 - vh)) * (1 - vh);
         scale += weight * (1 - fresnel);
         bias += weight * fresnel;

@@ -183,7 +183,7 @@ bool printPixels(const Settings& s)
   for (const Size size : s.pixels)
   {
     const double pixels = double(size.width) * size.height;
-    const std::vector<Result> results = measure(s, rows, size, pixels > 1e7 ? 1 : pixels > 1e6 ? 2 : s.frames);
+    const std::vector<Result> results = measure(s, rows, size, pixels > 1e7 ? 1 : s.frames);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       const Result& r = results[i];
