@@ -31,7 +31,7 @@ public:
     , Line(line)
   {
   }
-  reference operator*() const { return *this->At; }
+  reference operator*() const { return withoutEnd(*this->At); }
   LineIterator& operator++()
   {
     ++this->At;

@@ -112,7 +112,7 @@ public:
     : From(characters)
   {
   }
-  reference operator*() const { return this->From->now(); }
+  reference operator*() const { return withoutEnd(this->From->now()); }
   CharacterIterator& operator++()
   {
     this->From->next();

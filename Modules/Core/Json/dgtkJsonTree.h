@@ -21,6 +21,13 @@
 namespace dgtk
 {
 
+/// What the parser is given: it takes a character 0 for the end of the text, and would ignore what follows.
+inline const char& withoutEnd(const char& c)
+{
+  static constexpr char invalid = 1;
+  return c != '\0' ? c : invalid;
+}
+
 /// Makes a tree of what the parser reads; takes the number of the line from where the parser reads.
 class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json>
 {
@@ -71,7 +78,7 @@ public:
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override
   {
-    std::string text = error.what();
+    std::string text = untagged(error.what());
     const std::size_t start = text.find(": ");
     text = start == std::string::npos ? text : text.substr(start + 2);
     text = text.substr(0, 160);

@@ -90,6 +90,7 @@ TEST(JsonPieces, ErrorsNameTheElement)
   EXPECT_NE(said("{\"files\": [{\"id\": 1},\n{\"id\": 2, \"id\": 3}]}").find("given twice"), std::string::npos);
   EXPECT_NE(said("{\"files\": [{\"id\": 1}").find("is not valid JSON"), std::string::npos);
   EXPECT_NE(said("").find("is not valid JSON"), std::string::npos);
+  EXPECT_NE(said(std::string("{\"files\": [{\"id\": 1}]}\n\0", 24)).find(":2: is not valid JSON"), std::string::npos);
   EXPECT_EQ(said("[[{\"id\": 1}]]"), "");
   EXPECT_THROW(readJsonPieces(folder.path("none.json"), {}), InputError);
   EXPECT_THROW(readJsonPieces(folder.path(""), {}), InputError);

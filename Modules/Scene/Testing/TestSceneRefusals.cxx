@@ -115,7 +115,7 @@ TEST(SceneRefusals, JsonSyntax)
     { "[]", "a.json:1: has the wrong type (expected an object, found a list of 0)" },
     { "{\n\n\"fps\": }\n", "a.json:3: is not valid JSON" },
     { "{\n\"fps\": nan\n}\n", "a.json:2: is not valid JSON" },
-    { "{\n\"fps\": 1e999\n}\n", "a.json:2: is not valid JSON" },
+    { "{\n\"fps\": 1e999\n}\n", "a.json:2: is not valid JSON: number overflow" },
     { "{\n\"fps\": 25,\n\"fps\": 30\n}\n", "a.json:3: key 'fps' is given twice" },
     { "{} {}", "a.json:1: is not valid JSON" },
     { "{\n\"units\": \"m\xff\"\n}", "a.json:2: is not valid JSON" },
@@ -123,6 +123,8 @@ TEST(SceneRefusals, JsonSyntax)
     { "{\"units\": m\x7f}", "last read: '\"units\": m'" },
     { std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "a.json:1: is not valid JSON" },
     { "{\"x\": " + std::string(1000, '['), "a.json:1: is nested too deeply (expected at most 32 levels)" },
+    { std::string("{}\n\0", 4), "a.json:2: is not valid JSON" }, // as after a machine's failure
+    { std::string("{}\0{}", 5), "a.json:1: is not valid JSON" },
     { "{\n/* open", "a.json:2: is not valid JSON" },
   };
   for (const Case& c : cases)

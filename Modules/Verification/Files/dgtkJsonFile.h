@@ -6,6 +6,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -26,7 +27,7 @@ auto useJson(const std::string& path, const Body& body)
   }
   catch (const nlohmann::json::exception& error)
   {
-    throw InputError(path, 0, std::string("cannot be used: ") + error.what());
+    throw InputError(path, 0, "cannot be used: " + untagged(error.what()));
   }
   catch (const std::out_of_range&)
   {
@@ -37,7 +38,12 @@ auto useJson(const std::string& path, const Body& body)
 
 inline nlohmann::json readJsonFile(const std::string& path)
 {
-  return useJson(path, [&] { return nlohmann::json::parse(readFile(path)); });
+  const std::string text = readFile(path);
+  if (text.find('\0') != std::string::npos)
+  {
+    throw InputError(path, 0, "cannot be used: it has a character 0, which ends a text");
+  }
+  return useJson(path, [&] { return nlohmann::json::parse(text); });
 }
 
 /// The size of a list, which has to be this; used within useJson().

@@ -227,3 +227,18 @@ TEST(SampleVerification, NothingOutsideOfTheFolderIsOpened)
     EXPECT_THROW(bricks(0, "000000.json", file), InputError) << file;
   }
 }
+
+TEST(SampleVerification, ARecordThatCannotBeReadIsNamedInPlainWords)
+{
+  const std::string first = R"("first": 0)";
+  const std::pair<std::string, const char*> words[] = { { R"("first": "0")", "type must be number" },
+    { R"("first": tru)", "syntax error" }, { R"("first": 1e400)", "number overflow" },
+    { R"("one": 0)", "key 'first' not found" }, { first + std::string(1, '\0'), "a character 0" } };
+  for (const auto& [instead, why] : words)
+  {
+    const std::string said = test::thrownBy<InputError>([&, &word = instead] { bricks(0, first, word); });
+    EXPECT_NE(said.find("samples.json: cannot be used: "), std::string::npos) << said;
+    EXPECT_NE(said.find(why), std::string::npos) << said;
+    EXPECT_EQ(said.find("exception"), std::string::npos) << said;
+  }
+}
