@@ -48,6 +48,10 @@ PacketTracer::PacketTracer(const RayScene& scene, const View& view)
     this->Skew = below.x() - first.x();
     this->FirstY = first.y();
     this->StepY = below.y() - first.y();
+    const Eigen::Vector3d size(1, 3 * view.model->width(), 3 * view.model->height()); // what is around the image, too
+    const Eigen::Vector3d x(this->FirstX, this->StepX, this->Skew);
+    const Eigen::Vector3d y(this->FirstY, 0, this->StepY);
+    this->Traceable = isTraceable(x.cwiseProduct(size), y.cwiseProduct(size));
   }
 }
 
@@ -82,7 +86,7 @@ void PacketTracer::setGeneral(const PixelRect& block)
   for (int lane = 0; lane < lanes; ++lane)
   {
     const CameraRay& ray = rays[lane];
-    this->Valid[lane] = ray.exists() ? this->Valid[lane] : 0;
+    this->Valid[lane] = ray.exists() && isTraceable(ray.origin, ray.direction) ? this->Valid[lane] : 0;
     out.org_x[lane] = float(ray.origin.x());
     out.org_y[lane] = float(ray.origin.y());
     out.org_z[lane] = float(ray.origin.z());
@@ -212,7 +216,7 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
 {
   for (int lane = 0; lane < lanes; ++lane)
   {
-    this->Valid[lane] = lane % side < block.width && lane / side < block.height ? -1 : 0;
+    this->Valid[lane] = this->Traceable && lane % side < block.width && lane / side < block.height ? -1 : 0;
   }
   if (this->Linear)
   {

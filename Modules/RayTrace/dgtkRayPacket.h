@@ -63,6 +63,7 @@ private:
   bool Linear;
   float* VaryingX = nullptr; ///< linear: what of the rays differs between pixels, x components
   float* VaryingY = nullptr;
+  bool Traceable = true; ///< linear: all rays
   double FirstX = 0, StepX = 0, Skew = 0, FirstY = 0, StepY = 0;
   float Near;
   float Far;

@@ -312,6 +312,11 @@ void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTri
 
 void traceRays(const RayScene& scene, const ExactRay* rays, unsigned int active, RayContext& context)
 {
+  for (unsigned int left = active; left != 0; left &= left - 1)
+  {
+    const auto lane = unsigned(__builtin_ctz(left));
+    active ^= isTraceable(rays[lane].origin, rays[lane].direction) ? 0U : 1U << lane;
+  }
   if ((active & (active - 1)) == 0)
   {
     if (active != 0)

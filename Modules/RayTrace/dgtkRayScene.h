@@ -167,6 +167,13 @@ struct RayContext
 /// Traces those of up to 16 rays whose bits are set in `active`: one alone, several as a packet.
 void traceRays(const RayScene& scene, const ExactRay* rays, unsigned int active, RayContext& context);
 
+/// Whether single precision, and Embree, can follow a ray; one of a camera beyond reason cannot be, and meets nothing.
+inline bool isTraceable(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
+{
+  constexpr double most = 1e18; // Embree's FLT_LARGE is 1.8e18
+  return origin.cwiseAbs().sum() + direction.cwiseAbs().sum() < most;
+}
+
 /// Embree's ray of an exact one, its range a little wider.
 RTCRayHit makeQuery(const ExactRay& ray);
 

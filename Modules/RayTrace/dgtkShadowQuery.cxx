@@ -79,8 +79,8 @@ public:
     alignas(64) int valid[mostPaths];
     for (std::size_t i = 0; i < mostPaths; ++i)
     {
-      valid[i] = i < count ? -1 : 0;
       const LightPath& path = paths[i < count ? i : 0];
+      valid[i] = i < count && isTraceable(path.origin, path.direction) ? -1 : 0;
       packet.org_x[i] = float(path.origin.x());
       packet.org_y[i] = float(path.origin.y());
       packet.org_z[i] = float(path.origin.z());

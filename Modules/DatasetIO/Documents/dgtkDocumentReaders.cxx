@@ -75,6 +75,18 @@ void readParameters(const JsonCursor& value, const std::string& folder, CameraRe
   }
 }
 
+/// About a rotation, or a reflection: how far it is from one is for the referee to say, rays need a way to the world.
+Eigen::Matrix3d turnOf(const JsonCursor& value)
+{
+  constexpr double about = 0.01;
+  const auto R = value.matrix<Eigen::Matrix3d>();
+  if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= about))
+  {
+    value.fail("is no rotation");
+  }
+  return R;
+}
+
 CameraRecord cameraOf(const JsonCursor& value, const std::string& folder)
 {
   CameraRecord camera;
@@ -85,7 +97,7 @@ CameraRecord cameraOf(const JsonCursor& value, const std::string& folder)
   camera.model = value["model"].text();
   camera.hasK = value.has("K") || camera.model == "pinhole" || camera.model == "orthographic"; // K is all they have
   camera.K = camera.hasK ? value["K"].matrix<Eigen::Matrix3d>() : camera.K;
-  camera.R = value["R"].matrix<Eigen::Matrix3d>();
+  camera.R = turnOf(value["R"]);
   camera.t = value["t"].matrix<Eigen::Vector3d>();
   readParameters(value, folder, camera);
   if (value.has("rollingShutter"))
@@ -95,7 +107,7 @@ CameraRecord cameraOf(const JsonCursor& value, const std::string& folder)
     camera.rollingShutter.direction =
       static_cast<RollingShutter::Direction>(value["rollingShutter"]["direction"].oneOf(rollingDirections()));
   }
-  camera.near = value["near"].number();
+  camera.near = value["near"].number(aboveZero);
   // JSON has no infinity
   camera.far = value["far"].isNull() ? std::numeric_limits<double>::infinity() : value["far"].number();
   return camera;

@@ -156,6 +156,7 @@ TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
   camera.hasK = false;
   camera.numbers["shift"] = { 1, 2 };
   camera.files["rays"] = "inputs/rays.npy";
+  camera.near = 0.5;
   camera.far = 1;
   const std::string text = camerasText({ camera });
   EXPECT_EQ(text.find("\"K\""), std::string::npos);
@@ -170,6 +171,38 @@ TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
   wrong.replace(wrong.find("[1.0, 2.0]"), 10, "true");
   writeFile(folder.path("cameras.json"), wrong);
   EXPECT_THAT(thrownBy<InputError>([&] { readCameras(folder.path("cameras.json")); }), HasSubstr("cameras[0].shift"));
+}
+
+// Rays of such cameras would be none, or lead backwards.
+TEST(Cameras, WhatCannotSeeIsRefused)
+{
+  const TemporaryFolder folder;
+  CameraRecord camera;
+  camera.name = "c";
+  camera.width = camera.height = 8;
+  camera.model = "pinhole";
+  camera.near = 1;
+  camera.far = 100;
+  const auto refused = [&](const CameraRecord& wrong)
+  {
+    writeFile(folder.path("cameras.json"), camerasText({ wrong }));
+    return thrownBy<InputError>([&] { readCameras(folder.path("cameras.json")); });
+  };
+  EXPECT_EQ(refused(camera), "");
+  for (const double near : { 0.0, -1.0 })
+  {
+    CameraRecord wrong = camera;
+    wrong.near = near;
+    EXPECT_THAT(refused(wrong), HasSubstr("cameras[0].near is out of range (expected a number above 0"));
+  }
+  for (const double scale : { 0.0, 0.99, 1.01, 1e300 })
+  {
+    CameraRecord wrong = camera;
+    wrong.R(1, 1) = scale;
+    EXPECT_THAT(refused(wrong), HasSubstr("cameras[0].R is no rotation")) << scale;
+    wrong.R(1, 1) = scale > 0.5 && scale < 2 ? 1 + (scale - 1) / 4 : 1;
+    EXPECT_EQ(refused(wrong), "") << scale;
+  }
 }
 
 TEST(Objects, RoundTrip)

@@ -83,6 +83,34 @@ Hit hit(std::uint32_t object, std::uint32_t triangle) { return { object, triangl
 
 } // namespace
 
+// Embree ends the process over a ray that single precision cannot hold.
+TEST(OcclusionQuery, RaysBeyondAllBoundsMeetNothing)
+{
+  ThreadPool pool(2);
+  const auto state = SceneBuilder().add(makeQuad()).state();
+  const auto query = makeOcclusionQuery();
+  query->setScene(state);
+  const auto source = makeRaySource(pool);
+  for (const auto& [row, column] : { std::pair(0, 1), std::pair(0, 2), std::pair(1, 2) })
+  {
+    for (const double number : { 1e30, 1e300 })
+    {
+      Eigen::Matrix3d K;
+      K << 50, 0, 32, 0, 50, 24, 0, 0, 1;
+      K(row, column) = number;
+      View view = makeView();
+      view.model = makePinhole(64, 48, K);
+      source->setScene(state, view);
+      VisibilityBuffer buffer;
+      source->render({ 0, 0, 64, 48 }, buffer);
+      EXPECT_EQ(std::count(buffer.hits.begin(), buffer.hits.end(), Hit{}), 64 * 48) << row << column << ' ' << number;
+      std::vector<Hit> hits;
+      query->allHits(view, { 20.5, 30.5 }, hits);
+      EXPECT_TRUE(hits.empty());
+    }
+  }
+}
+
 TEST(OcclusionQuery, AllHitsAreThoseOfEveryTriangle)
 {
   const auto query = makeOcclusionQuery();
