@@ -27,8 +27,8 @@ std::string cameraText(const std::string& name, double x, const std::string& mor
          std::to_string(x) + ", 0, 0]" + (more.empty() ? "" : ", ") + more + '}';
 }
 
-/// A scene of nothing but cameras, of frames 1 to 4.
-std::shared_ptr<const Stage> stageOf(const std::vector<std::string>& cameras)
+/// A scene of frames 1 to 4, of nothing but cameras unless it is given objects.
+std::shared_ptr<const Stage> stageOf(const std::vector<std::string>& cameras, const std::string& objects = {})
 {
   const test::TemporaryFolder folder;
   std::string text;
@@ -36,8 +36,14 @@ std::shared_ptr<const Stage> stageOf(const std::vector<std::string>& cameras)
   {
     text += (text.empty() ? "" : ", ") + camera;
   }
-  std::ofstream(folder.path("s.json")) << R"({"keyFrames": [1, 4], "objects": [], "cameras": [)" << text << "]}";
+  std::ofstream(folder.path("s.json")) << R"({"keyFrames": [1, 4], "objects": [)" << objects << R"(], "cameras": [)"
+                                       << text << "]}";
   return Stage::load(readScene(folder.path("s.json")));
+}
+
+std::string crateText(const std::string& name)
+{
+  return "{\"name\": \"" + name + "\", \"model\": \"" + test::sourceFile("Data/Models/crate.ac") + "\"}";
 }
 
 LayerRequest requestOf(const std::vector<std::string>& names, const OptionValues& options = {})
@@ -233,7 +239,9 @@ TEST(Plan, WhatThePicturesCannotHave)
 
 TEST(Plan, WhatIsDrawnNeedsALinearProjection)
 {
-  const auto stage = stageOf({ cameraText("a", 0), cameraText("f", 1, R"("model": "equirectangular")") });
+  const std::string round = R"("model": "equirectangular")";
+  const auto stage =
+    stageOf({ cameraText("a", 0), cameraText("f", 1, round), cameraText("g", 2, round) }, crateText("crate"));
   const OptionValues vtk{ { "renderer", "vtk" } };
   const OptionValues raster{ { "visibility", "raster" } };
   const auto refused = [&](const std::string& layer, const OptionValues& options = {})
@@ -246,6 +254,9 @@ TEST(Plan, WhatIsDrawnNeedsALinearProjection)
   EXPECT_THAT(refused("depth", vtk), IsEmpty());
   EXPECT_THAT(refused("ldi", vtk), HasSubstr("layer ldi: camera 'f'"));
   EXPECT_THAT(refused("ldi"), IsEmpty());
+  EXPECT_THAT(
+    refused("matting", { { "matte", "crate" }, { "renderer", "vtk" } }), HasSubstr("layer matting: camera 'f'"));
+  EXPECT_THAT(refused("matting", { { "matte", "crate" } }), IsEmpty());
   EXPECT_EQ(refused("calibration"), "layer calibration: camera 'f' (equirectangular) has no linear projection");
   EXPECT_EQ(refused("depth", { { "depth_format", "npy,dgd" } }),
     "layer depth as dgd: camera 'f' (equirectangular) has no linear projection");
@@ -259,11 +270,11 @@ TEST(Plan, WhatIsDrawnNeedsALinearProjection)
   {
     if (one.needs == "cameras with linear projections alone")
     {
-      left[one.layer] = one.pictures;
+      EXPECT_TRUE(left.emplace(one.layer, one.pictures).second) << one.layer;
       EXPECT_EQ(one.of, all.jobs.size());
     }
   }
-  EXPECT_EQ(left, (std::map<std::string, std::size_t>{ { "calibration", 8 }, { "pov", 8 } }));
+  EXPECT_EQ(left, (std::map<std::string, std::size_t>{ { "calibration", 12 }, { "pov", 12 } }));
   for (const PlannedLayer& planned : all.layers)
   {
     EXPECT_EQ(left.count(planned.layer->info().layer), 0u);
@@ -297,6 +308,12 @@ TEST(Plan, ARequestIsWrittenAsItWasMeant)
     (Pairs{ { "layers", "ldi,pov" }, { "cameras", "all" }, { "frames", "all" }, { "size", "camera's own" },
       { "ldi_format", "ldi" }, { "pov_format", "pov" }, { "renderer", "ray" }, { "pov_shadows", "on" },
       { "visibility", "ray" }, { "seed", "0" }, { "models", "yes" } }));
+  const auto crate = stageOf({ cameraText("a", 0) }, crateText("crate"));
+  const LayerRequest matting = requestOf({ "matting" }, { { "matte", "crate" }, { "samples", "2" } });
+  EXPECT_EQ(describeRequest(makeWorkPlan(matting, *crate), *crate),
+    (Pairs{ { "layers", "matting" }, { "cameras", "all" }, { "frames", "all" }, { "size", "camera's own" },
+      { "matting_format", "png" }, { "matte", "crate" }, { "matting_samples", "2" }, { "renderer", "ray" },
+      { "visibility", "ray" }, { "seed", "0" } }));
 }
 
 TEST(Plan, WhoMayStartOpenGL)
