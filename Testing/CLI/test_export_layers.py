@@ -163,9 +163,9 @@ class MovedDisparities(Case):
         self.assertTrue({0, 1, 2, 4} <= seen, seen)
 
     def test_of_what_stands_still_it_follows_from_depth(self):
-        """The rig goes 0.3 forward: z - 0.3 a frame later, z + 0.3 a frame earlier."""
-        self.render([rig("left", 0), rig("right", 0.12)], layers="disparity,disparity_forward,disparity_backward,depth,objects",
-                    frames=2)
+        """The rig goes 0.3 forward: z - 0.3 a frame later, z + 0.3 a frame earlier. Of several partners it is the nearest."""
+        self.render([rig("far", -0.3), rig("left", 0), rig("right", 0.12), rig("farther", -0.5)],
+                    layers="disparity,disparity_forward,disparity_backward,depth,objects", frames=2)
         still = self.load("left", "objects", 1) != 2
         depth = self.load("left", "depth", 1)
         still &= np.isfinite(depth)
@@ -189,6 +189,11 @@ class MovedDisparities(Case):
                      says=("disparity_forward", "two cameras side by side at both"))
         self.dgtk("render", path, "-o", self.path("turned"), "--layers", "disparity", "--quiet")
         self.assertEqual(sorted(os.listdir(self.path("turned/left/disparity")))[::2], ["000000.pfm", "000002.pfm"])
+        # nor has one that goes over to the other side
+        scene["cameras"][1] = rig("right", 0, position={"keys": [[0, [0.12, 1, 4]], [1, [-0.12, 1, 3.7]], [2, [-0.12, 1, 3.4]]]})
+        self.write("scene.json", json.dumps(scene))
+        self.dgtk("render", path, "-o", self.path("over"), "--layers", "disparity_forward", "--quiet")
+        self.assertEqual(sorted(os.listdir(self.path("over/left/disparity_forward"))), ["000001.pfm", "000001.png"])
 
 
 if __name__ == "__main__":

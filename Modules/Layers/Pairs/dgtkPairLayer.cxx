@@ -152,7 +152,7 @@ struct Pair
   int offset = 0;
 };
 
-/// "A:B", "A:B+1", "A:B-2"; names may hold colons and signs.
+/// "A:B", "A:B+1", "A:B-2"; names may hold signs.
 bool parsePair(const std::string& text, const std::vector<std::string>& names, Pair& pair)
 {
   for (pair.from = 0; pair.from < names.size(); ++pair.from)

@@ -5,9 +5,12 @@
 #include "dgtkModelSeeds.h"
 #include "dgtkTestSupport.h"
 #include "dgtkTextLines.h"
+#include "dgtkTriangulate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <set>
@@ -142,4 +145,50 @@ TEST(TextLines, WordsAndLines)
   ASSERT_TRUE(lines.next());
   EXPECT_EQ(lines.line(), "last");
   EXPECT_FALSE(lines.next());
+}
+
+/// Triangles of one direction whose areas add up to the polygon's tile it.
+TEST(Triangulate, ConcavePolygonsAreTiledFromEveryCornerOnEverySide)
+{
+  const std::vector<std::vector<Eigen::Vector2d>> polygons{
+    { { 0, 0 }, { 2, 0 }, { 3, 2 }, { 0, 1 } },                                                   // convex
+    { { 0, 0 }, { 4, 0 }, { 1, 1 }, { 0, 4 } },                                                   // an arrow
+    { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 1, 1 }, { 1, 3 }, { 0, 3 } },                               // an L
+    { { 0, 0 }, { 5, 0 }, { 5, 3 }, { 4, 1 }, { 3, 3 }, { 2, 1 }, { 1, 3 }, { 0, 1 } },           // a comb
+    { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 0, 4 }, { 0, 0 }, { 1, 1 }, { 1, 3 }, { 3, 2 }, { 1, 1 } }, // with a hole
+  };
+  const std::vector<double> areas{ 3.5, 4, 5, 10, 14 };
+  for (std::size_t k = 0; k < polygons.size(); ++k)
+  {
+    const std::size_t n = polygons[k].size();
+    for (std::size_t way = 0; way < 6 * n; ++way)
+    {
+      const int axis = int(way % 3);
+      const double sign = way / 3 % 2 == 0 ? 1 : -1;
+      std::vector<Eigen::Vector3d> points;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const Eigen::Vector2d& p = polygons[k][(i + way / 6) % n];
+        Eigen::Vector3d x;
+        x[axis] = 0.25 * p.x() + 0.125 * p.y();
+        x[(axis + 1) % 3] = sign * p.x();
+        x[(axis + 2) % 3] = p.y();
+        points.push_back(x);
+      }
+      std::vector<std::array<std::uint32_t, 3>> triangles;
+      std::uint64_t work = 0;
+      EXPECT_TRUE(dgtk::triangulate(points, triangles, work, 1000));
+      ASSERT_EQ(triangles.size(), n - 2);
+      double sum = 0;
+      for (const auto& t : triangles)
+      {
+        const double area = 0.5 * sign * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]])[axis];
+        EXPECT_GE(area, 0) << "polygon " << k << " way " << way;
+        sum += area;
+      }
+      EXPECT_NEAR(sum, areas[k], 1e-12) << "polygon " << k << " way " << way;
+      EXPECT_EQ(dgtk::triangulate(points, triangles, work = 0, 0), k == 0) << "above the limit of work";
+      EXPECT_EQ(triangles.size(), n - 2);
+    }
+  }
 }

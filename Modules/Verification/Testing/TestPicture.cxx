@@ -180,4 +180,28 @@ TEST(Dataset, CamerasOfOtherFramesAreTheScenes)
   EXPECT_EQ(record.t, Vector3d(0, 0, 0));
   EXPECT_FALSE(dataset->eye("b", 0, {}));
 }
+
+TEST(Dataset, FilesAreThoseOfTheirCameraFrameAndLayer)
+{
+  HandMade made({ wallModel(2) }, {}, { "a", "b" });
+  for (const char* const file : { "a/depth/000000.npy", "a/depth/000000.pfm", "a/depth/000001.exr",
+         "a/edges/000000.png", "b/depth/000000.dgd", "b/edges/000000.npy" })
+  {
+    made.file(file, "");
+  }
+  const std::unique_ptr<Dataset> dataset = made.dataset();
+  EXPECT_THAT(dataset->suffixes("a", "depth", 0), ElementsAre(".npy", ".pfm"));
+  EXPECT_THAT(dataset->suffixes("a", "depth", 1), ElementsAre(".exr"));
+  EXPECT_THAT(dataset->suffixes("a", "edges", 0), ElementsAre(".png"));
+  EXPECT_THAT(dataset->suffixes("b", "depth", 0), ElementsAre(".dgd"));
+  EXPECT_THAT(dataset->suffixes("b", "edges", 0), ElementsAre(".npy"));
+  EXPECT_THAT(dataset->suffixes("a", "coverage", 0), ElementsAre()) << "before all others";
+  EXPECT_THAT(dataset->suffixes("a", "edges", 1), ElementsAre());
+  EXPECT_THAT(dataset->layers("a", 0), ElementsAre("depth", "edges"));
+  EXPECT_THAT(dataset->layers("a", 1), ElementsAre("depth"));
+  EXPECT_THAT(dataset->layers("a", 2), ElementsAre());
+  EXPECT_THAT(dataset->layers("b", 0), ElementsAre("depth", "edges"));
+  EXPECT_EQ(dataset->find("a", "depth", 0, { ".exr", ".pfm", ".npy" }), "a/depth/000000.pfm");
+  EXPECT_EQ(dataset->find("a", "edges", 1, { ".png" }), "");
+}
 } // namespace
