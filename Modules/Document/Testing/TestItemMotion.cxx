@@ -102,6 +102,17 @@ TEST(ItemMotion, SeveralTurnAboutTheirCentreAndChildrenOnce)
   EXPECT_LT((scene.lights[0].target.value - center - R * (Eigen::Vector3d(1, 0, 0) - center)).norm(), motionTolerance);
 }
 
+/// Only objects have children: the first light is not the first object.
+TEST(ItemMotion, AChildGoesBesideALight)
+{
+  const SceneDescription scene = family();
+  for (const SceneItem& other : { light, camera })
+  {
+    EXPECT_EQ(
+      ItemMotion(scene, placesOf(scene), { other, secondMoved }, 0).items(), (SceneItems{ other, secondMoved }));
+  }
+}
+
 TEST(ItemMotion, ScalesAnObjectAlongItsOwnAxes)
 {
   SceneDescription scene = family();
