@@ -4,6 +4,7 @@
 
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
+#include "dgtkViewWidget.h"
 
 #include <QAction>
 #include <QCheckBox>
@@ -21,6 +22,7 @@
 #include <QTabWidget>
 #include <QTest>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <utility>
@@ -222,21 +224,41 @@ void TestEditorWhole::viewsMoveByKeys()
   QVERIFY2(this->Window->findChild<QWidget*>("view.3")->hasFocus(), "the perspective begins");
   for (const char* name : { "view.0", "view.3" })
   {
-    auto* view = this->Window->findChild<QOpenGLWidget*>(name);
+    auto* view = dynamic_cast<dgtk::ViewWidget*>(this->Window->findChild<QOpenGLWidget*>(name));
+    QVERIFY(view != nullptr);
     view->setFocus();
     const QImage first = view->grabFramebuffer();
-    const auto differs = [&](int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+    struct Row
     {
-      const QImage before = view->grabFramebuffer();
-      QTest::keyClick(view, Qt::Key(key), modifiers);
-      untilQuiet();
-      return view->grabFramebuffer() != before;
+      Qt::Key key;
+      Qt::KeyboardModifiers modifiers;
+      int right; // ways of 30 pixels, or turns of 5 degrees
+      int down;
+      double closer;
     };
-    QVERIFY(differs(Qt::Key_Right));
-    QVERIFY(differs(Qt::Key_Up));
-    QVERIFY(differs(Qt::Key_Left, Qt::ShiftModifier));
-    QVERIFY(differs(Qt::Key_Plus));
-    QVERIFY(differs(Qt::Key_Minus));
+    for (const Row& row : { Row{ Qt::Key_Right, Qt::NoModifier, 1, 0, 0 }, { Qt::Key_Up, Qt::NoModifier, 0, -1, 0 },
+           { Qt::Key_Up, Qt::NoModifier, 0, -1, 0 }, { Qt::Key_Left, Qt::NoModifier, -1, 0, 0 },
+           { Qt::Key_Down, Qt::NoModifier, 0, 1, 0 }, { Qt::Key_Left, Qt::ShiftModifier, -1, 0, 0 },
+           { Qt::Key_Plus, Qt::NoModifier, 0, 0, 0.15 }, { Qt::Key_Minus, Qt::NoModifier, 0, 0, -0.15 },
+           { Qt::Key_Equal, Qt::NoModifier, 0, 0, 0.15 } })
+    {
+      dgtk::ViewCamera wanted = view->camera();
+      const QImage before = view->grabFramebuffer();
+      if (wanted.parallel() || row.modifiers == Qt::ShiftModifier)
+      {
+        wanted.pan(30 * row.right, 30 * row.down, view->height());
+      }
+      else
+      {
+        wanted.orbit(5 * row.right, 5 * row.down);
+      }
+      wanted.zoom(std::exp(row.closer));
+      QTest::keyClick(view, row.key, row.modifiers);
+      untilQuiet();
+      QVERIFY((view->camera().eye() - wanted.eye()).norm() < 1e-9);
+      QVERIFY((view->camera().focus() - wanted.focus()).norm() < 1e-9);
+      QVERIFY(view->grabFramebuffer() != before);
+    }
     QVERIFY(first != view->grabFramebuffer());
     this->action("maximize")->trigger(); // the view that has the focus
     QVERIFY(view->isVisible());
