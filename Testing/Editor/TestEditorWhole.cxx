@@ -6,6 +6,8 @@
 #include "dgtkSceneDocument.h"
 #include "dgtkViewWidget.h"
 
+#include <Eigen/Geometry>
+
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
@@ -265,6 +267,45 @@ void TestEditorWhole::viewsMoveByKeys()
     QVERIFY(!this->Window->findChild<QWidget*>("view.1")->isVisible());
     this->action("maximize")->trigger();
   }
+}
+
+/// At the frame that is shown; a camera that looks straight down says what is upwards in its picture.
+void TestEditorWhole::aPreviewHasTheCamerasPose()
+{
+  using V = Eigen::Vector3d;
+  QVERIFY(this->Window->openFile(demo()));
+  const auto posed = [](const char* name, const V& right, const V& down, const V& forward)
+  {
+    Eigen::Matrix3d axes;
+    axes << right, down, forward;
+    const Eigen::Quaterniond turn(axes);
+    dgtk::CameraDescription camera;
+    camera.name = name;
+    camera.posed = true;
+    camera.position = V(1, 2, 3);
+    camera.orientation = dgtk::Quaternion{ turn.w(), turn.x(), turn.y(), turn.z() };
+    return camera;
+  };
+  dgtk::CameraDescription walking;
+  walking.name = "walking";
+  walking.eye.keys = { { 0, V(0, 0, 8) }, { 8, V(0, 4, 8) } };
+  this->Window->document().addCamera(walking);
+  this->Window->document().addCamera(posed("level", V(0, 0, 1), V(0, -1, 0), V(1, 0, 0)));
+  this->Window->document().addCamera(posed("down", V(0, 0, 1), V(-1, 0, 0), V(0, -1, 0)));
+  this->Window->findChild<QSpinBox*>("frame")->setValue(4);
+  const auto* view = dynamic_cast<dgtk::ViewWidget*>(this->Window->findChild<QOpenGLWidget*>("view.3"));
+  QVERIFY(view != nullptr);
+  const auto shows = [&](const char* name, const V& eye, const V& focus, const V& up)
+  {
+    this->select(name);
+    this->action("preview")->trigger();
+    const dgtk::ViewCamera& seen = view->camera();
+    return (seen.eye() - eye).norm() + (seen.focus() - focus).norm() + (seen.up() - up).norm() < 1e-9;
+  };
+  const double away = std::sqrt(14.0); // as far as what the view was turned about
+  QVERIFY(shows("walking", V(0, 2, 8), V(0, 0, 0), V(0, 1, 0)));
+  QVERIFY(shows("level", V(1, 2, 3), V(1 + away, 2, 3), V(0, 1, 0)));
+  QVERIFY(shows("down", V(1, 2, 3), V(1, 2 - away, 3), V(1, 0, 0)));
 }
 
 void TestEditorWhole::stylesLookDifferent()
