@@ -321,6 +321,22 @@ class Ros(datasets.ExportCase):
                 self.assertLess(np.abs(R - expected[0]).max(), 1e-12)
                 self.assertLess(np.abs(t - expected[1] * self.METRES).max(), 1e-12)
 
+    def test_sheared_objects_have_no_axes(self):
+        """A turned child of an unevenly scaled, turned parent: the record names it."""
+        path = datasets.stereo(self.path("sheared"))
+        with open(path, encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["objects"][0].update(scale=[1, 2, 1], orientation=[0.92388, 0, 0, 0.382683])
+        scene["objects"][2].update(parent=scene["objects"][0]["name"], orientation=[0.92388, 0, 0, 0.382683])
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        folder, record = self.export(self.render(path, "color,depth"), "rosbag", "--unit-metres", self.METRES)
+        self.assertEqual(record["conventions"]["sheared_objects_without_axes"], scene["objects"][2]["name"])
+        self.assertNotIn("sheared_objects_without_axes", self.records["rosbag"]["conventions"])
+        for places in transforms_of(messages_of_bag(os.path.join(folder, "dataset.bag"))).values():
+            ids = {child.rsplit("_", 1)[1] for child in places}
+            self.assertTrue("3" not in ids and {"1", "2"} <= ids, ids)
+
     def test_a_pair_rectifies(self):
         """stereo_image_proc: z = fx baseline / disparity, baseline = -P[3] / fx of the right camera."""
         left, right = self.by_topic("/left_eye/camera_info")[1], self.by_topic("/right_eye/camera_info")[1]
