@@ -16,6 +16,7 @@
 #include <QImage>
 #include <QLineEdit>
 #include <QMouseEvent>
+#include <QStatusBar>
 #include <QTest>
 
 #include <cmath>
@@ -65,6 +66,12 @@ QPoint TestEditorHandles::pixelOf(int kind, const Eigen::Vector3d& point) const
 {
   const Eigen::Vector2d at = this->exactPixelOf(kind, point);
   return QPoint(int(std::lround(at.x())), int(std::lround(at.y())));
+}
+
+/// Whether the status bar begins so.
+bool TestEditorHandles::told(const QString& words) const
+{
+  return this->Window->statusBar()->currentMessage().startsWith(words);
 }
 
 void TestEditorHandles::openCrate()
@@ -138,7 +145,9 @@ void TestEditorHandles::squaresAndKeysKeepToPlanes()
   this->move(front, center + QPoint(20, -10));
   this->move(front, center + QPoint(40, -30));
   QVERIFY(near(this->object().position.value, { 40 * u, 30 * u, 0 }));
+  QVERIFY(this->told(QString("Move by %1, %2, 0 ").arg(40 * u, 0, 'g', 4).arg(30 * u, 0, 'g', 4)));
   QTest::keyClick(this->view(front), Qt::Key_X);
+  QVERIFY(this->told(QString("Move by %1, 0, 0 ").arg(40 * u, 0, 'g', 4)));
   QVERIFY(near(this->object().position.value, { 40 * u, 0, 0 }));
   QTest::keyClick(this->view(front), Qt::Key_Y);
   QVERIFY(near(this->object().position.value, { 0, 30 * u, 0 }));
@@ -183,6 +192,7 @@ void TestEditorHandles::ringsRotate()
     this->move(front, onRing(degrees), Qt::ControlModifier);
   }
   this->release(front, onRing(220));
+  QVERIFY(this->told(QString::fromUtf8("Rotate 195\u00b0 about Z ")));
   const dgtk::Quaternion turned = this->object().orientation.value;
   QVERIFY(std::abs(turned.w - std::cos(195 * pi / 360)) < 1e-12);
   QVERIFY(std::abs(turned.z - std::sin(195 * pi / 360)) < 1e-12);
@@ -210,12 +220,14 @@ void TestEditorHandles::boxesScale()
   this->drag(front, from, to);
   QVERIFY(near(this->object().scale.value, { (middle - to.y()) / (middle - from.y()), 1, 1 }));
   QCOMPARE(this->object().scale.value.y(), 1.0);
+  QVERIFY(this->told(QString("Scale by %1, 1, 1 ").arg((middle - to.y()) / (middle - from.y()), 0, 'g', 4)));
   QCOMPARE(this->document().undoText(), std::string("Scale"));
   this->action("undo")->trigger();
   QCOMPARE(this->object().scale.value, Eigen::Vector3d(1, 1, 1));
   // The middle scales evenly: half an arrow to the right and up is a factor of 1 + sqrt(1/2).
   this->drag(front, center, center + QPoint(40, -40));
   QVERIFY(near(this->object().scale.value, Eigen::Vector3d::Constant(1 + 80 / std::sqrt(2.0) / arrow)));
+  QVERIFY(this->told(QString("Scale by %1 ").arg(1 + 80 / std::sqrt(2.0) / arrow, 0, 'g', 4)));
 }
 
 void TestEditorHandles::modelsFarFromTheirOriginTurnInPlace()
@@ -342,6 +354,7 @@ void TestEditorHandles::escapePutsBack()
   this->move(front, center + QPoint(140, 0));
   QVERIFY(this->object().position.value.x() > 0);
   QTest::keyClick(this->view(front), Qt::Key_Escape);
+  QVERIFY(this->told("As it was before the drag"));
   QCOMPARE(this->document().json(), first);
   this->move(front, center + QPoint(190, 0));
   this->release(front, center + QPoint(190, 0));

@@ -59,6 +59,7 @@ private:
   /// One crate, selected, with handles at its origin, and everything in sight.
   void openCrate();
   const dgtk::ObjectDescription& object(std::size_t index = 0) const;
+  bool told(const QString& words) const;
   void press(int kind, const QPoint& at) const;
   void move(int kind, const QPoint& at, Qt::KeyboardModifiers modifiers = Qt::NoModifier) const;
   void release(int kind, const QPoint& at) const;

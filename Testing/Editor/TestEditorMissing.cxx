@@ -90,7 +90,10 @@ void TestEditorFiles::missingModelsAreFound()
   QVERIFY(!this->action("findModels")->isEnabled());
   QVERIFY(kindOf(*this->Window, "box") != "missing");
   // Their textures are not there: the line that stays says so.
-  QVERIFY(this->Window->statusBar()->currentMessage().contains("warnings in the log"));
+  const QString told = this->Window->statusBar()->currentMessage();
+  QVERIFY2(told.startsWith("Found 2 of 2 models; warnings in the log: "), qPrintable(told));
+  const QString log = this->Window->findChild<QPlainTextEdit*>("log")->toPlainText();
+  QCOMPARE(log.count("Warning: "), told.section(' ', -1).toInt());
   this->action("undo")->trigger();
   QCOMPARE(document.scene().objects[0].model, std::string("models/crate.ac"));
   QCOMPARE(kindOf(*this->Window, "box"), QString("missing"));

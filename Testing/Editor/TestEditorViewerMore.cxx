@@ -18,7 +18,9 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QTimer>
+#include <QWheelEvent>
 
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -248,12 +250,30 @@ void TestEditorViewer::theMouseMovesTheWorld()
     QCOMPARE((after.forward() - before.forward()).norm() > 1e-3, row.way == Turns);
     QCOMPARE((after.focus() - before.focus()).norm() > 1e-3 * far, row.way == Pans);
     QCOMPARE(std::abs(distance(after) - far) > 1e-3 * far, row.way == Zooms);
+    if (row.way == Turns) // 0.4 degrees a pixel
+    {
+      dgtk::ViewCamera turned = before;
+      turned.orbit(12, 8);
+      QVERIFY((after.eye() - turned.eye()).norm() < 1e-9 * far);
+    }
+    if (row.way == Zooms) // downwards: away
+    {
+      QVERIFY(std::abs(distance(after) / far - std::exp(0.16)) < 1e-9);
+    }
     if (row.way == Pans) // what was under the mouse still is
     {
       const std::optional<Eigen::Vector2d> at = after.pixel(before.focus(), cloud->width(), cloud->height());
       const Eigen::Vector2d expected(0.5 * cloud->width() + 30, 0.5 * cloud->height() + 20);
       QVERIFY(at && (*at - expected).norm() < 1e-6);
     }
+  }
+  for (const int way : { 1, -2 }) // steps of the wheel
+  {
+    const double far = distance(cloud->camera());
+    QWheelEvent event(middle, cloud->mapToGlobal(middle), {}, QPoint(0, 120 * way), Qt::NoButton, Qt::NoModifier,
+      Qt::NoScrollPhase, false);
+    QApplication::sendEvent(cloud, &event);
+    QVERIFY(std::abs(distance(cloud->camera()) / far - std::exp(-0.15 * way)) < 1e-9);
   }
   QCOMPARE(camera->currentText(), QString("left")); // motions choose nothing
   this->waitForPictures(viewer);

@@ -4,6 +4,9 @@
 
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
+#include "dgtkViewWidget.h"
+
+#include <Eigen/Geometry>
 
 #include <QAction>
 #include <QCheckBox>
@@ -21,6 +24,7 @@
 #include <QTabWidget>
 #include <QTest>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <utility>
@@ -222,27 +226,86 @@ void TestEditorWhole::viewsMoveByKeys()
   QVERIFY2(this->Window->findChild<QWidget*>("view.3")->hasFocus(), "the perspective begins");
   for (const char* name : { "view.0", "view.3" })
   {
-    auto* view = this->Window->findChild<QOpenGLWidget*>(name);
+    auto* view = dynamic_cast<dgtk::ViewWidget*>(this->Window->findChild<QOpenGLWidget*>(name));
+    QVERIFY(view != nullptr);
     view->setFocus();
     const QImage first = view->grabFramebuffer();
-    const auto differs = [&](int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+    struct Row
     {
-      const QImage before = view->grabFramebuffer();
-      QTest::keyClick(view, Qt::Key(key), modifiers);
-      untilQuiet();
-      return view->grabFramebuffer() != before;
+      Qt::Key key;
+      Qt::KeyboardModifiers modifiers;
+      int right; // ways of 30 pixels, or turns of 5 degrees
+      int down;
+      double closer;
     };
-    QVERIFY(differs(Qt::Key_Right));
-    QVERIFY(differs(Qt::Key_Up));
-    QVERIFY(differs(Qt::Key_Left, Qt::ShiftModifier));
-    QVERIFY(differs(Qt::Key_Plus));
-    QVERIFY(differs(Qt::Key_Minus));
+    for (const Row& row : { Row{ Qt::Key_Right, Qt::NoModifier, 1, 0, 0 }, { Qt::Key_Up, Qt::NoModifier, 0, -1, 0 },
+           { Qt::Key_Up, Qt::NoModifier, 0, -1, 0 }, { Qt::Key_Left, Qt::NoModifier, -1, 0, 0 },
+           { Qt::Key_Down, Qt::NoModifier, 0, 1, 0 }, { Qt::Key_Left, Qt::ShiftModifier, -1, 0, 0 },
+           { Qt::Key_Plus, Qt::NoModifier, 0, 0, 0.15 }, { Qt::Key_Minus, Qt::NoModifier, 0, 0, -0.15 },
+           { Qt::Key_Equal, Qt::NoModifier, 0, 0, 0.15 } })
+    {
+      dgtk::ViewCamera wanted = view->camera();
+      const QImage before = view->grabFramebuffer();
+      if (wanted.parallel() || row.modifiers == Qt::ShiftModifier)
+      {
+        wanted.pan(30 * row.right, 30 * row.down, view->height());
+      }
+      else
+      {
+        wanted.orbit(5 * row.right, 5 * row.down);
+      }
+      wanted.zoom(std::exp(row.closer));
+      QTest::keyClick(view, row.key, row.modifiers);
+      untilQuiet();
+      QVERIFY((view->camera().eye() - wanted.eye()).norm() < 1e-9);
+      QVERIFY((view->camera().focus() - wanted.focus()).norm() < 1e-9);
+      QVERIFY(view->grabFramebuffer() != before);
+    }
     QVERIFY(first != view->grabFramebuffer());
     this->action("maximize")->trigger(); // the view that has the focus
     QVERIFY(view->isVisible());
     QVERIFY(!this->Window->findChild<QWidget*>("view.1")->isVisible());
     this->action("maximize")->trigger();
   }
+}
+
+/// At the frame that is shown; a camera that looks straight down says what is upwards in its picture.
+void TestEditorWhole::aPreviewHasTheCamerasPose()
+{
+  using V = Eigen::Vector3d;
+  QVERIFY(this->Window->openFile(demo()));
+  const auto posed = [](const char* name, const V& right, const V& down, const V& forward)
+  {
+    Eigen::Matrix3d axes;
+    axes << right, down, forward;
+    const Eigen::Quaterniond turn(axes);
+    dgtk::CameraDescription camera;
+    camera.name = name;
+    camera.posed = true;
+    camera.position = V(1, 2, 3);
+    camera.orientation = dgtk::Quaternion{ turn.w(), turn.x(), turn.y(), turn.z() };
+    return camera;
+  };
+  dgtk::CameraDescription walking;
+  walking.name = "walking";
+  walking.eye.keys = { { 0, V(0, 0, 8) }, { 8, V(0, 4, 8) } };
+  this->Window->document().addCamera(walking);
+  this->Window->document().addCamera(posed("level", V(0, 0, 1), V(0, -1, 0), V(1, 0, 0)));
+  this->Window->document().addCamera(posed("down", V(0, 0, 1), V(-1, 0, 0), V(0, -1, 0)));
+  this->Window->findChild<QSpinBox*>("frame")->setValue(4);
+  const auto* view = dynamic_cast<dgtk::ViewWidget*>(this->Window->findChild<QOpenGLWidget*>("view.3"));
+  QVERIFY(view != nullptr);
+  const auto shows = [&](const char* name, const V& eye, const V& focus, const V& up)
+  {
+    this->select(name);
+    this->action("preview")->trigger();
+    const dgtk::ViewCamera& seen = view->camera();
+    return (seen.eye() - eye).norm() + (seen.focus() - focus).norm() + (seen.up() - up).norm() < 1e-9;
+  };
+  const double away = std::sqrt(14.0); // as far as what the view was turned about
+  QVERIFY(shows("walking", V(0, 2, 8), V(0, 0, 0), V(0, 1, 0)));
+  QVERIFY(shows("level", V(1, 2, 3), V(1 + away, 2, 3), V(0, 1, 0)));
+  QVERIFY(shows("down", V(1, 2, 3), V(1, 2 - away, 3), V(1, 0, 0)));
 }
 
 void TestEditorWhole::stylesLookDifferent()

@@ -16,6 +16,7 @@ private slots:
   void aClosedViewerEndsNothing();
   void parallelViewsCutNothing();
   void viewsMoveByKeys();
+  void aPreviewHasTheCamerasPose();
   void stylesLookDifferent();
   void savingIsAnAnswer();
   void lightsHaveAllTheirNumbers();

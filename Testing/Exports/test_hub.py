@@ -169,6 +169,26 @@ class WebDataset(Hub):
         sample = self.samples(folder, ["train-000000.tar"])["left_eye_000000"]
         self.assertEqual(sample["color.jpg"][:3], b"\xff\xd8\xff")
 
+    def test_ids_beyond_sixteen_bits_are_numbers(self):
+        """Where an object's id does not fit into a PNG's sample, all are numbers of 32 bits."""
+        dataset = self.render(datasets.stereo(self.path("scene")), "color,objects")
+        path, manifest = (os.path.join(dataset, name) for name in ("objects.json", "manifest.json"))
+        document = load_json(path)
+        document["objects"].append({**document["objects"][0], "name": "late", "id": 65536})
+        hashes = []
+        for text in (None, json.dumps(document)):
+            if text:
+                self.write(path, text)
+            with open(path, "rb") as file:
+                hashes.append(hashlib.sha256(file.read()).hexdigest())
+        with open(manifest, encoding="utf-8") as file:
+            self.write(manifest, file.read().replace(*hashes))
+        self.dgtk("export", dataset, "--format", "webdataset", "-o", self.path("large"), "--quiet")
+        sample = self.samples(self.path("large"), ["train-000000.tar"])["left_eye_000001"]
+        found = np.load(io.BytesIO(sample["objects.npy"]))
+        self.assertEqual(found.dtype, np.uint32)
+        self.assertTrue(np.array_equal(found, layer_of(dataset, "objects", "left eye", 1)))
+
     def test_many_cameras_lenses_and_an_empty_frame(self):
         many = self.render(datasets.many(self.path("many")), "color,objects")
         folder, _ = self.export(many, "webdataset", "--samples-per-shard", 7)

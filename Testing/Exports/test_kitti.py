@@ -126,16 +126,21 @@ class Kitti(datasets.ExportCase):
     def test_depth(self):
         """256 codes a metre; what is too far for 16 bits is none, and counted."""
         dataset = self.render(datasets.walk(self.path("scene"), empty=False), "color,depth")
-        for metres, beyond in ((1, False), (40, True)):
+        depths = np.stack([layer_of(dataset, "depth", "Kamera 1", frame) for frame in range(4)])
+        last = float(65535 / 256 / depths[np.isfinite(depths)].max())  # the farthest has the last code
+        for metres, beyond in ((1, False), (40, True), (last, False)):
             folder, record = self.export(dataset, "kitti-depth", "--unit-metres", metres)
             drive = os.path.join(folder, "train", "Kamera_1")
             rounding = next(one for one in record["layers"] if one["layer"] == "depth")
+            largest = 0
             for frame in range(4):
                 codes = read_png(os.path.join(drive, "proj_depth", "groundtruth", "image_02", f"{frame:010d}.png"), (16, 1))[..., 0]
                 truth = layer_of(dataset, "depth", "Kamera 1", frame) * metres
                 valid = truth * 256 < 65535.5
                 self.assertTrue(np.array_equal(codes > 0, valid))
                 self.assertLessEqual(np.abs(codes / 256 - truth)[valid].max(), 1 / 512 + 1e-12)
+                largest = max(largest, codes.max())
+            self.assertEqual(largest == 65535, metres == last)
             self.assertEqual(rounding["without_code"] > 0, beyond)
             K = calibration(os.path.join(drive, "calib_cam_to_cam.txt"))["K_02"].reshape(3, 3)
             self.assertTrue(np.allclose(K[:2, 2], datasets.cameras_of(dataset)["Kamera 1", 0]["K"][:2, 2] - 0.5))

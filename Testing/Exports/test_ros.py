@@ -229,7 +229,8 @@ class Ros(datasets.ExportCase):
     def setUp(self):
         super().setUp()
         self.dataset = self.render(datasets.stereo(self.path("scene")), "color,depth,position")
-        self.folders = {form: self.export(self.dataset, form, "--unit-metres", self.METRES)[0] for form in ("rosbag", "mcap")}
+        exports = {form: self.export(self.dataset, form, "--unit-metres", self.METRES) for form in ("rosbag", "mcap")}
+        self.folders, self.records = ({form: export[i] for form, export in exports.items()} for i in (0, 1))
         self.messages = messages_of_bag(os.path.join(self.folders["rosbag"], "dataset.bag"))
 
     def by_topic(self, topic):
@@ -263,6 +264,8 @@ class Ros(datasets.ExportCase):
         self.assertRegex(said["refused"], "(?i)crc")
 
     def test_pictures(self):
+        """Colours as they are, depths rounded to float, by as much as the record says."""
+        values, largest = 0, 0
         for camera, name in self.NAMES.items():
             colors, depths = self.by_topic(f"/{name}/image_raw/compressed"), self.by_topic(f"/{name}/depth/image_raw")
             self.assertEqual((sorted(colors), sorted(depths)), ([0, 1, 2], [0, 1, 2]))
@@ -271,10 +274,16 @@ class Ros(datasets.ExportCase):
                     self.assertEqual(colors[frame].data, file.read())
                 image = depths[frame]
                 self.assertEqual((image.encoding, image.is_bigendian, image.header.frame_id), ("32FC1", 0, name + "_optical_frame"))
-                values = np.frombuffer(image.data, "<f4").reshape(image.height, image.step // 4)
+                found = np.frombuffer(image.data, "<f4").reshape(image.height, image.step // 4)
                 expected = layer_of(self.dataset, "depth", camera, frame) * self.METRES
                 expected[~np.isfinite(expected)] = np.nan
-                np.testing.assert_array_equal(values, expected.astype(np.float32))
+                np.testing.assert_array_equal(found, expected.astype(np.float32))
+                values += np.isfinite(expected).sum()
+                largest = max(largest, np.nanmax(np.abs(found - expected)))
+        for record in self.records.values():
+            depth = next(row for row in record["layers"] if row["layer"] == "depth")
+            self.assertEqual((depth["values"], depth["unit"], depth["without_code"]), (values, "m", 0))
+            self.assertAlmostEqual(depth["largest_rounding"], largest, delta=1e-6 * largest)
 
     def test_points_are_where_the_surface_is(self):
         """depth_image_proc's formula with K of CameraInfo, then tf: the layer of positions comes out."""
@@ -311,6 +320,22 @@ class Ros(datasets.ExportCase):
                     expected = np.array(pose["R"]), np.array(pose["t"])
                 self.assertLess(np.abs(R - expected[0]).max(), 1e-12)
                 self.assertLess(np.abs(t - expected[1] * self.METRES).max(), 1e-12)
+
+    def test_sheared_objects_have_no_axes(self):
+        """A turned child of an unevenly scaled, turned parent: the record names it."""
+        path = datasets.stereo(self.path("sheared"))
+        with open(path, encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["objects"][0].update(scale=[1, 2, 1], orientation=[0.92388, 0, 0, 0.382683])
+        scene["objects"][2].update(parent=scene["objects"][0]["name"], orientation=[0.92388, 0, 0, 0.382683])
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        folder, record = self.export(self.render(path, "color,depth"), "rosbag", "--unit-metres", self.METRES)
+        self.assertEqual(record["conventions"]["sheared_objects_without_axes"], scene["objects"][2]["name"])
+        self.assertNotIn("sheared_objects_without_axes", self.records["rosbag"]["conventions"])
+        for places in transforms_of(messages_of_bag(os.path.join(folder, "dataset.bag"))).values():
+            ids = {child.rsplit("_", 1)[1] for child in places}
+            self.assertTrue("3" not in ids and {"1", "2"} <= ids, ids)
 
     def test_a_pair_rectifies(self):
         """stereo_image_proc: z = fx baseline / disparity, baseline = -P[3] / fx of the right camera."""

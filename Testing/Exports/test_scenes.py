@@ -78,6 +78,10 @@ class Scenes(datasets.ExportCase):
             self.assert_same_files(whole, shares)
             self.dgtk(*command, shares, "--shard", "0/2")
             self.assert_same_files(whole, shares)
+            alone = self.path(form + "-alone")  # all of it is a share, too
+            self.dgtk(*command, alone, "--shard", "0/1")
+            self.dgtk("merge", alone)
+            self.assert_same_files(whole, alone)
 
     def test_a_wrong_class_is_found(self):
         folder = self.export("coco")

@@ -125,6 +125,8 @@ TEST(CameraArray, EveryRefusalAndEveryLimit)
     { Kind::Hemisphere, 0, 3, 3, 1, {}, number },
     { Kind::Hemisphere, 8, 0, 0, -1, {}, "" },
     { Kind::Grid, 0, 100, 100, 1, {}, "" },
+    { Kind::Grid, 8, 1, 3, 1, {}, "" },
+    { Kind::Grid, 8, 3, 1, 1, {}, "" },
     { Kind::Grid, 8, 0, 3, 1, {}, grid },
     { Kind::Grid, 8, 3, 0, 1, {}, grid },
     { Kind::Grid, 8, 101, 100, 1, {}, grid },

@@ -219,6 +219,21 @@ TEST(DocumentSteps, ModifiedIsWhatTheFileHasNot)
   EXPECT_FALSE(document.modified());
 }
 
+TEST(DocumentSteps, ASaveEndsADrag)
+{
+  const test::TemporaryFolder folder;
+  SceneDocument document;
+  twoLights(document);
+  put(document, first, 0, "drag"); // where it is
+  document.saveAs(folder.path("a.json"));
+  EXPECT_EQ(document.undoText(), "Add light") << "it changed nothing";
+  put(document, first, 1, "drag");
+  document.saveAs(folder.path("a.json"));
+  document.abandon();
+  EXPECT_EQ(document.scene().lights[0].position.value.x(), 1);
+  EXPECT_FALSE(document.modified());
+}
+
 TEST(DocumentSteps, WhatIsAdded)
 {
   const test::TemporaryFolder folder;

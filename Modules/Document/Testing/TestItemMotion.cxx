@@ -80,6 +80,22 @@ TEST(ItemMotion, ChildrenGoAndTurnInTheWorld)
   EXPECT_EQ(scene.objects[1].position.value, family().objects[1].position.value);
 }
 
+/// The sense of a turn is that of the parent's axes.
+TEST(ItemMotion, ChildrenOfTurnedParentsTurnTheSameWay)
+{
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3;
+  for (int degrees = -170; degrees < 180; degrees += 20)
+  {
+    SceneDescription scene = family();
+    scene.objects[0].orientation = turn(Eigen::Vector3d(0, 0.6, 0.8), degrees);
+    scene.objects[0].scale = Eigen::Vector3d(2, 2, 2);
+    const Affine3 before = worldOf(scene, 1);
+    const ItemMotion items(scene, placesOf(scene), { secondMoved }, 0);
+    items.apply(scene, rotation(items, axis, 50));
+    EXPECT_LT((worldOf(scene, 1).linear - turn(axis, 50).matrix() * before.linear).norm(), 1e-11) << degrees;
+  }
+}
+
 TEST(ItemMotion, SeveralTurnAboutTheirCentreAndChildrenOnce)
 {
   SceneDescription scene = family();
@@ -100,6 +116,17 @@ TEST(ItemMotion, SeveralTurnAboutTheirCentreAndChildrenOnce)
   EXPECT_LT(
     (scene.lights[0].position.value - center - R * (Eigen::Vector3d(0, 4, 0) - center)).norm(), motionTolerance);
   EXPECT_LT((scene.lights[0].target.value - center - R * (Eigen::Vector3d(1, 0, 0) - center)).norm(), motionTolerance);
+}
+
+/// Only objects have children: the first light is not the first object.
+TEST(ItemMotion, AChildGoesBesideALight)
+{
+  const SceneDescription scene = family();
+  for (const SceneItem& other : { light, camera })
+  {
+    EXPECT_EQ(
+      ItemMotion(scene, placesOf(scene), { other, secondMoved }, 0).items(), (SceneItems{ other, secondMoved }));
+  }
 }
 
 TEST(ItemMotion, ScalesAnObjectAlongItsOwnAxes)

@@ -127,6 +127,45 @@ TEST(ViewLines, AFisheyeIsItsBorder)
   }
 }
 
+/// Where the lens sees the whole image: the corners, and twelve parts of each side, clockwise from the top left.
+TEST(ViewLines, ABentPictureIsItsBorder)
+{
+  CameraPlace place;
+  place.valid = true;
+  Eigen::Matrix3d K;
+  K << 90, 0, 45, 0, 80, 42, 0, 0, 1;
+  place.view.model = makeCamera("pinhole", { 96, 84, K, { { "distortion", { 0.1, 0, 0, 0 } } } });
+  ASSERT_FALSE(place.view.model->linear().has_value());
+  LineList lines;
+  addFrustum(lines, place, 3);
+  ASSERT_EQ(lines.size(), 4u + 48u);
+  std::vector<Eigen::Vector2d> border;
+  for (int i = 0; i < 12; ++i)
+  {
+    border.insert(border.begin() + i, { 8.0 * i, 0 });
+    border.insert(border.begin() + 2 * i + 1, { 96, 7.0 * i });
+    border.insert(border.begin() + 3 * i + 2, { 96 - 8.0 * i, 84 });
+    border.emplace_back(0, 84 - 7.0 * i);
+  }
+  const auto expectSeen = [&](const V& point, std::size_t i)
+  {
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(place.view.model->project(point, pixel));
+    EXPECT_LT((pixel - border[i % 48]).norm(), 1e-6) << i;
+    EXPECT_NEAR(point.norm(), 3, placeTolerance);
+  };
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    EXPECT_TRUE(lines[i].first.isZero(0));
+    expectSeen(lines[i].second, 12 * i);
+  }
+  for (std::size_t i = 0; i < 48; ++i)
+  {
+    expectSeen(lines[4 + i].first, i);
+    expectSeen(lines[4 + i].second, i + 1);
+  }
+}
+
 TEST(ViewLines, SizesGoWithTheScene)
 {
   const ScenePlaces places = placeScene(lookout(), ModelLibrary(), 0);
@@ -347,7 +386,7 @@ struct Strip
     {
       for (int x = 0; x < 5; ++x)
       {
-        this->geometry.positions.emplace_back(x, y, 0);
+        this->geometry.positions.emplace_back(3 + x / 4.0, y / 4 - 2, 0.5); // cells may be anywhere, and small
       }
     }
     for (std::uint32_t i = 0; i < 4; ++i)
@@ -376,7 +415,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 TEST(MeshClusters, AStripByHand)
 {
   Strip strip;
-  const std::optional<ClusteredPart> half = strip.clustered(2);
+  const std::optional<ClusteredPart> half = strip.clustered(0.5);
   ASSERT_TRUE(half.has_value());
   const std::vector<std::uint32_t> sources{ 0, 2, 7, 5, 4, 9 };
   EXPECT_EQ(half->sources, sources);
@@ -386,13 +425,15 @@ TEST(MeshClusters, AStripByHand)
     EXPECT_EQ(half->positions[i], strip.geometry.positions[sources[i]]);
   }
   EXPECT_EQ(half->triangles, (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 1, 4, 5 }, { 1, 5, 2 } }));
-  EXPECT_FALSE(strip.clustered(1).has_value()) << "nothing is saved";
-  EXPECT_FALSE(strip.clustered(5).has_value()) << "nothing is left";
+  strip.model.triangles[0] = { 1, 6, 0 }; // its first and its last corner become one
+  EXPECT_EQ(strip.clustered(0.5)->triangles, half->triangles);
+  EXPECT_FALSE(strip.clustered(0.25).has_value()) << "nothing is saved";
+  EXPECT_FALSE(strip.clustered(1.25).has_value()) << "nothing is left";
 
   // The second half of the strip is another part.
   strip.part.firstTriangle = 4;
   strip.part.triangles = 4;
-  const std::optional<ClusteredPart> part = strip.clustered(2);
+  const std::optional<ClusteredPart> part = strip.clustered(0.5);
   ASSERT_TRUE(part.has_value());
   EXPECT_EQ(part->sources, (std::vector<std::uint32_t>{ 2, 4, 9, 7 }));
   EXPECT_EQ(part->triangles, (Triangles{ { 0, 1, 2 }, { 0, 2, 3 } }));
@@ -400,14 +441,14 @@ TEST(MeshClusters, AStripByHand)
 
 TEST(MeshClusters, SeamsKeepTheirTwoSides)
 {
-  for (const bool seam : { false, true })
+  for (const int seam : { 0, 1, 2 }) // none, in u, in v
   {
     // Vertices 2 and 7 again, for the right half of the strip.
     Strip strip;
     strip.geometry.positions.push_back(strip.geometry.positions[2]);
     strip.geometry.positions.push_back(strip.geometry.positions[7]);
     strip.model.uvs.assign(12, Eigen::Vector2d(0.25, 0.5));
-    strip.model.uvs[10] = strip.model.uvs[11] = Eigen::Vector2d(0.25, seam ? 0.75 : 0.5);
+    strip.model.uvs[10] = strip.model.uvs[11] = Eigen::Vector2d(seam == 1 ? 0.75 : 0.25, seam == 2 ? 0.75 : 0.5);
     for (std::size_t t = 4; t < 8; ++t)
     {
       for (std::uint32_t& corner : strip.model.triangles[t])
@@ -415,13 +456,13 @@ TEST(MeshClusters, SeamsKeepTheirTwoSides)
         corner = corner == 2 ? 10 : corner == 7 ? 11 : corner;
       }
     }
-    const std::optional<ClusteredPart> half = strip.clustered(2);
+    const std::optional<ClusteredPart> half = strip.clustered(0.5);
     ASSERT_TRUE(half.has_value());
-    EXPECT_EQ(half->sources, seam ? (std::vector<std::uint32_t>{ 0, 2, 7, 5, 10, 4, 9, 11 })
-                                  : (std::vector<std::uint32_t>{ 0, 2, 7, 5, 4, 9 }));
-    EXPECT_EQ(half->triangles, seam ? (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } })
-                                    : (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 1, 4, 5 }, { 1, 5, 2 } }));
-    EXPECT_EQ(half->positions[seam ? 4 : 1], strip.geometry.positions[2]);
+    EXPECT_EQ(half->sources, seam > 0 ? (std::vector<std::uint32_t>{ 0, 2, 7, 5, 10, 4, 9, 11 })
+                                      : (std::vector<std::uint32_t>{ 0, 2, 7, 5, 4, 9 }));
+    EXPECT_EQ(half->triangles, seam > 0 ? (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } })
+                                        : (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 1, 4, 5 }, { 1, 5, 2 } }));
+    EXPECT_EQ(half->positions[seam > 0 ? 4 : 1], strip.geometry.positions[2]);
   }
 }
 

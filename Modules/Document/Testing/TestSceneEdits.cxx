@@ -69,6 +69,7 @@ TEST(SceneEdits, ManyNamesStayUnique)
     names.add(name);
   }
   EXPECT_EQ(names.rename("a-9"), "a-9") << "nobody else has it";
+  EXPECT_EQ(names.rename("a-9"), "a-9") << "and still nobody";
   EXPECT_EQ(names.rename("a-7"), "a-10");
   EXPECT_EQ(names.rename("a-7"), "a-12");
   EXPECT_EQ(names.rename("a-7"), "a-7");

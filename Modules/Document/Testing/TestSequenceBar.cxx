@@ -88,6 +88,8 @@ TEST(SequenceBar, RigidModelsHaveNone)
   document.addModel(sourceFile("Data/Models/crate.ac"));
   EXPECT_FALSE(barOf(document));
   EXPECT_EQ(currentSequence(document.scene(), only(document), document.models()), -1);
+  EXPECT_TRUE(sequencesOf(document.scene(), only(document), document.models()).empty());
+  EXPECT_TRUE(sequencesOf(document.scene(), only(document), ModelLibrary()).empty()) << "not read yet";
 }
 
 TEST(SequenceBar, UnknownSequencesAreRefusedAndNothingIsReadAgain)

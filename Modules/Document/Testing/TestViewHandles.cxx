@@ -2,6 +2,7 @@
 #include "dgtkPortableMath.h"
 #include "dgtkViewHandles.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,6 +15,7 @@ constexpr double handleWidth = 640;
 constexpr double handleHeight = 480;
 constexpr double handleTolerance = 1e-9; // world units, of a scene of a few units
 
+using V = Eigen::Vector3d;
 const Eigen::Vector3d pivot(1, 2, -0.5);
 
 ViewCamera cameraOf(ViewKind kind)
@@ -186,5 +188,29 @@ TEST(HandleDrag, AKeyKeepsAFreeMotionToAnAxis)
   EXPECT_EQ(drag.motion(to, 0).translation, Eigen::Vector3d(0, 0, 0));
   drag.constrain({ Handle::Kind::Plane, 0 }); // seen from its edge
   EXPECT_EQ(drag.motion(to, 0).translation, Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(HandleDrag, AnAxisTowardsTheEyeGoesNowhere)
+{
+  const ViewCamera camera = cameraOf(ViewKind::Perspective);
+  HandlePlace place = placeOf(HandleMode::Move);
+  place.axes = Eigen::Quaterniond::FromTwoVectors(V::UnitZ(), camera.towardsEye(pivot)).toRotationMatrix();
+  const Eigen::Vector2d start = pixel(camera, pivot);
+  HandleDrag drag(place, {}, pivot, camera, handleWidth, handleHeight, start);
+  drag.constrain({ Handle::Kind::Axis, 2 });
+  EXPECT_EQ(drag.motion(start + Eigen::Vector2d(200, 0), 0).translation, V(0, 0, 0)) << "grasped along it";
+}
+
+/// As if the mouse had gone down where it did, on the other ring.
+TEST(HandleDrag, AKeyTurnsAboutAnotherAxisFromTheBeginning)
+{
+  const ViewCamera camera = cameraOf(ViewKind::Perspective);
+  const V grasped = pivot + V(0.5, 0.4, 0.3);
+  const Eigen::Vector2d to = pixel(camera, pivot + V(-0.4, 0.5, 0.2));
+  HandleDrag turned = dragOf(HandleMode::Rotate, { Handle::Kind::Axis, 0 }, camera, grasped);
+  EXPECT_GT(std::abs(turned.motion(to, 0).degrees), 5);
+  turned.constrain({ Handle::Kind::Axis, 2 });
+  HandleDrag other = dragOf(HandleMode::Rotate, { Handle::Kind::Axis, 2 }, camera, grasped);
+  EXPECT_NEAR(turned.motion(to, 0).degrees, other.motion(to, 0).degrees, 1e-9);
 }
 } // namespace

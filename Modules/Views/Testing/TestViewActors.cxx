@@ -13,6 +13,7 @@
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -286,13 +287,25 @@ TEST_F(ViewActorsTable, SixteenCopiesAreDrawnTogether)
     EXPECT_EQ(actors.coarserMeshes(), 0);
     EXPECT_TRUE(actors.takeFresh());
     EXPECT_FALSE(actors.takeFresh());
+    actors.chooseDetail(camera, 4000, 3000, 10000000); // of another drawing: they are no more
     for (vtkActor* const actor : actorsOf(renderer))
     {
       auto* const mapper = vtkGlyph3DMapper::SafeDownCast(actor->GetMapper());
       if (mapper != nullptr)
       {
         EXPECT_TRUE(together);
-        EXPECT_EQ(vtkPolyData::SafeDownCast(mapper->GetInput())->GetNumberOfPoints(), 16);
+        vtkPolyData* const points = vtkPolyData::SafeDownCast(mapper->GetInput());
+        EXPECT_EQ(points->GetNumberOfPoints(), 16);
+        EXPECT_TRUE(actor->GetVisibility());
+        vtkDataArray* const scales = points->GetPointData()->GetArray("scale");
+        ASSERT_NE(scales, nullptr);
+        expectVector(
+          scales->GetTuple3(15), this->Places.objects[15].instance.world_from_object.linear.colwise().norm());
+        ASSERT_NE(points->GetPointData()->GetArray("rotation"), nullptr);
+        actors.showCoarse(this->Places);
+        EXPECT_FALSE(actor->GetVisibility());
+        actors.showFine();
+        actors.chooseDetail(camera, 4000, 3000, 10000000);
         EXPECT_TRUE(actor->GetVisibility());
       }
     }
@@ -325,6 +338,29 @@ TEST_F(ViewActorsTable, ObjectsBecomeCopiesAndObjectsAgain)
   EXPECT_EQ(actorsOfSpheres(), 2);
 }
 
+TEST_F(ViewActorsTable, AnObjectComesBackToTheOrigin)
+{
+  this->place(1);
+  ViewActors actors(this->Renderer, ViewKind::Perspective);
+  for (const double x : { 3.0, 0.0, 2.0 })
+  {
+    Affine3& place = this->Places.objects[0].instance.world_from_object;
+    place = {};
+    place.translation = V(x, 0, 0);
+    this->show(actors);
+    int spheres = 0;
+    for (vtkActor* const actor : actorsOf(this->Renderer))
+    {
+      if (trianglesOf(actor) == vtkIdType(this->Sphere->triangles.size()))
+      {
+        ++spheres;
+        EXPECT_EQ(actor->GetMatrix()->GetElement(0, 3), x);
+      }
+    }
+    EXPECT_EQ(spheres, 1);
+  }
+}
+
 TEST_F(ViewActorsTable, WhatIsNearMayBeSeenAnywhere)
 {
   this->place(1);
@@ -334,9 +370,17 @@ TEST_F(ViewActorsTable, WhatIsNearMayBeSeenAnywhere)
   const double radius = this->Places.objects[0].box.diagonal() / 2;
   for (const auto& [distance, seen] : { std::pair(2.9 * radius, true), std::pair(3.1 * radius, false) })
   {
-    away.look(V(0, 0, distance), V(0, 0, 2 * distance));
-    actors.chooseDetail(away, 400, 300, 10000000);
-    EXPECT_EQ(actors.triangles() > 0, seen) << distance;
+    for (const double x : { 0.0, 50.0 })
+    {
+      ScenePlaces places = this->Places;
+      places.objects[0].box = {};
+      places.objects[0].box.add(this->Places.objects[0].box.min + V(x, 0, 0));
+      places.objects[0].box.add(this->Places.objects[0].box.max + V(x, 0, 0));
+      actors.show(this->Scene, places, nullptr, this->Meshes);
+      away.look(V(x, 0, distance), V(x, 0, 2 * distance));
+      actors.chooseDetail(away, 400, 300, 10000000);
+      EXPECT_EQ(actors.triangles() > 0, seen) << distance;
+    }
   }
   // Beside the picture by one and a half of its radius.
   ViewCamera front(ViewKind::Front);
