@@ -13,6 +13,28 @@
 
 using namespace dgtk;
 
+namespace
+{
+/// A request of the depths of a folder of two scenes, which it writes; `more` is of each scene.
+GeneratorRequest twoScenes(const test::TemporaryFolder& folder, const std::string& more = {})
+{
+  writeFile(folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+  std::filesystem::create_directory(folder.path("scenes"));
+  for (const char* const name : { "scenes/a.json", "scenes/b.json" })
+  {
+    writeFile(
+      folder.path(name), R"({ "version": 1, )" + more + R"("objects": [{ "name": "quad", "model": "../quad.obj" }],
+      "cameras": [{ "name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0] }] })");
+  }
+  GeneratorRequest request;
+  request.scene = folder.path("scenes");
+  request.layers = { "depth" };
+  request.width = 16;
+  request.height = 12;
+  return request;
+}
+} // namespace
+
 TEST(Generator, RefusesFramesThatAreNone)
 {
   const test::TemporaryFolder folder;
@@ -32,21 +54,10 @@ TEST(Generator, RefusesFramesThatAreNone)
 TEST(Generator, WhoeverCancelsAFolderOfScenesStopsTheSceneThatIsRendered)
 {
   const test::TemporaryFolder folder;
-  writeFile(folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
-  std::filesystem::create_directory(folder.path("scenes"));
-  for (const char* const name : { "scenes/a.json", "scenes/b.json" })
-  {
-    writeFile(folder.path(name), R"({ "version": 1, "objects": [{ "name": "quad", "model": "../quad.obj" }],
-      "cameras": [{ "name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0] }] })");
-  }
   std::atomic<bool> cancel{ true };
   GeneratorCallbacks callbacks;
   callbacks.cancel = &cancel;
-  GeneratorRequest request;
-  request.scene = folder.path("scenes");
-  request.layers = { "depth" };
-  request.width = 16;
-  request.height = 12;
+  GeneratorRequest request = twoScenes(folder);
   const auto made = [&](const char* name) { return std::filesystem::exists(request.folder + "/" + name); };
   for (const bool share : { false, true })
   {
@@ -73,23 +84,11 @@ TEST(Generator, WhoeverCancelsAFolderOfScenesStopsTheSceneThatIsRendered)
 TEST(Generator, PicturesOfABegunSceneOfManyAreKept)
 {
   const test::TemporaryFolder folder;
-  writeFile(folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
-  std::filesystem::create_directory(folder.path("scenes"));
-  for (const char* const name : { "scenes/a.json", "scenes/b.json" })
-  {
-    writeFile(folder.path(name),
-      R"({ "version": 1, "keyFrames": [0, 39], "objects": [{ "name": "quad", "model": "../quad.obj" }],
-      "cameras": [{ "name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0] }] })");
-  }
   std::atomic<bool> cancel{ true };
   GeneratorCallbacks callbacks;
   callbacks.cancel = &cancel;
-  GeneratorRequest request;
-  request.scene = folder.path("scenes");
+  GeneratorRequest request = twoScenes(folder, R"("keyFrames": [0, 39], )");
   request.folder = folder.path("all");
-  request.layers = { "depth" };
-  request.width = 16;
-  request.height = 12;
   request.options["threads"] = "1";
   EXPECT_TRUE(generateScenes(request, callbacks).interrupted);
   // some pictures of the first scene, which another process might have made

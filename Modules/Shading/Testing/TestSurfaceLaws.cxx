@@ -14,11 +14,7 @@ using namespace dgtk::test;
 
 TEST(PhongLaw, IsTheSumOfItsTerms)
 {
-  QuadOptions floor;
-  floor.corner = { -4, 0, 4 };
-  floor.sideU = { 8, 0, 0 };
-  floor.sideV = { 0, 0, -8 };
-  const auto model = matte(makeQuad(floor));
+  const auto model = groundModel();
   Material& material = model->materials[0];
   material.ambient = { 0.3, 0.2, 0.1 };
   material.diffuse = { 0.5, 0.7, 0.6 };
@@ -77,11 +73,7 @@ TEST(PhongLaw, IsTheSumOfItsTerms)
 /// Alone, it takes the viewer to be where it is; among others, its highlight is that of Phong.
 TEST(PhongLaw, HighlightOfAHeadLight)
 {
-  QuadOptions floor;
-  floor.corner = { -4, 0, 4 };
-  floor.sideU = { 8, 0, 0 };
-  floor.sideV = { 0, 0, -8 };
-  const auto model = matte(makeQuad(floor));
+  const auto model = groundModel();
   model->materials[0].diffuse.setZero();
   model->materials[0].specular.setOnes();
   model->materials[0].shininess = 5;
@@ -112,11 +104,7 @@ namespace
 /// A ground of a material that may use pictures of one colour each.
 std::shared_ptr<Model> mappedGround(const std::vector<std::array<std::uint8_t, 3>>& colors)
 {
-  QuadOptions floor;
-  floor.corner = { -4, 0, 4 };
-  floor.sideU = { 8, 0, 0 };
-  floor.sideV = { 0, 0, -8 };
-  const auto model = matte(makeQuad(floor));
+  const auto model = groundModel();
   model->textures.clear();
   for (const auto& color : colors)
   {

@@ -81,15 +81,17 @@ inline LightState lightAt(LightKind kind, const Eigen::Vector3d& position, const
   return light;
 }
 
-/// The plane y = 0 and a view of it from above.
-inline SceneBuilder ground(double half = 4)
+/// The plane y = 0.
+inline std::shared_ptr<Model> groundModel(double half = 4)
 {
   QuadOptions floor;
   floor.corner = { -half, 0, half };
   floor.sideU = { 2 * half, 0, 0 };
   floor.sideV = { 0, 0, -2 * half };
-  return SceneBuilder().add(matte(makeQuad(floor)));
+  return matte(makeQuad(floor));
 }
+
+inline SceneBuilder ground(double half = 4) { return SceneBuilder().add(groundModel(half)); }
 
 inline View fromAbove()
 {
