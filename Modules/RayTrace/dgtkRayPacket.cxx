@@ -7,7 +7,7 @@
 namespace dgtk
 {
 
-PacketTracer::PacketTracer(const RayScene& scene, const View& view)
+PacketTracer::PacketTracer(const RayScene& scene, const View& view, bool coherent)
   : Scene(scene)
   , TheView(view)
   , Linear(view.model->linear().has_value())
@@ -15,7 +15,7 @@ PacketTracer::PacketTracer(const RayScene& scene, const View& view)
   , Far(float(view.far))
 {
   rtcInitIntersectContext(&this->Context.context);
-  this->Context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  this->Context.context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   this->Context.scene = &scene;
   this->Context.view = &view;
   RTCRay16& ray = this->Packet.ray;
@@ -35,6 +35,7 @@ PacketTracer::PacketTracer(const RayScene& scene, const View& view)
     const bool perspective = view.model->linear()->perspective;
     this->VaryingX = perspective ? ray.dir_x : ray.org_x;
     this->VaryingY = perspective ? ray.dir_y : ray.org_y;
+    this->Least = perspective ? 0x1p-24 : 0;
     const auto at = [&](double x, double y)
     {
       const CameraRay r = view.model->rayThrough({ x, y });
@@ -61,11 +62,11 @@ void PacketTracer::setLinear(const PixelRect& block)
   {
     const double y = std::min(block.y + j, block.y + block.height - 1);
     const double skew = this->FirstX + this->Skew * y;
-    const float row = float(this->FirstY + this->StepY * y);
+    const float row = this->component(this->FirstY + this->StepY * y);
     for (int i = 0; i < side; ++i)
     {
       const double x = std::min(block.x + i, block.x + block.width - 1);
-      this->VaryingX[side * j + i] = float(skew + this->StepX * x);
+      this->VaryingX[side * j + i] = this->component(skew + this->StepX * x);
       this->VaryingY[side * j + i] = row;
     }
   }
@@ -90,9 +91,10 @@ void PacketTracer::setGeneral(const PixelRect& block)
     out.org_x[lane] = float(ray.origin.x());
     out.org_y[lane] = float(ray.origin.y());
     out.org_z[lane] = float(ray.origin.z());
-    out.dir_x[lane] = float(ray.direction.x());
-    out.dir_y[lane] = float(ray.direction.y());
-    out.dir_z[lane] = float(ray.direction.z());
+    const Eigen::Vector3d direction = withoutRoundings(ray.direction);
+    out.dir_x[lane] = float(direction.x());
+    out.dir_y[lane] = float(direction.y());
+    out.dir_z[lane] = float(direction.z());
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "dgtkRayScene.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +37,7 @@ public:
   static constexpr int lanes = 16;
   static constexpr int side = 4;
 
-  PacketTracer(const RayScene& scene, const View& view);
+  PacketTracer(const RayScene& scene, const View& view, bool coherent);
 
   /// Records the hits of `block`, at most Side x Side pixels inside buffer.rect; unless Bare, the marks, too.
   template <TraceMode Mode>
@@ -51,6 +52,8 @@ private:
     alignas(64) float sizes[lanes];
     alignas(64) float inverseEdge[lanes];
   };
+  /// As withoutRoundings().
+  float component(double value) const { return std::abs(value) < this->Least ? 0 : float(value); }
   void setLinear(const PixelRect& block);
   void setGeneral(const PixelRect& block);
   void mark(const PixelRect& block, const VisibilityBuffer& buffer, RayMarks& marks);
@@ -64,6 +67,7 @@ private:
   float* VaryingX = nullptr; ///< linear: what of the rays differs between pixels, x components
   float* VaryingY = nullptr;
   bool Traceable = true; ///< linear: all rays
+  double Least = 0;      ///< linear: what a component has at least, or is 0
   double FirstX = 0, StepX = 0, Skew = 0, FirstY = 0, StepY = 0;
   float Near;
   float Far;

@@ -107,7 +107,8 @@ void RayScene::placeInstance(std::size_t index)
     return;
   }
   placed.camera_from_object = this->Pose * instance.world_from_object;
-  const Eigen::Matrix3d linear = placed.mesh->baked ? this->Pose.rotation : placed.camera_from_object.linear;
+  const Eigen::Matrix3d linear =
+    withoutRoundings<Eigen::Matrix3d>(placed.mesh->baked ? this->Pose.rotation : placed.camera_from_object.linear);
   const Eigen::Vector3d translation = placed.camera_from_object * placed.mesh->centre;
   float matrix[12];
   for (int i = 0; i < 12; ++i)
@@ -208,9 +209,10 @@ RTCRayHit makeQuery(const ExactRay& ray)
   query.ray.org_x = float(ray.origin.x());
   query.ray.org_y = float(ray.origin.y());
   query.ray.org_z = float(ray.origin.z());
-  query.ray.dir_x = float(ray.direction.x());
-  query.ray.dir_y = float(ray.direction.y());
-  query.ray.dir_z = float(ray.direction.z());
+  const Eigen::Vector3d direction = withoutRoundings(ray.direction);
+  query.ray.dir_x = float(direction.x());
+  query.ray.dir_y = float(direction.y());
+  query.ray.dir_z = float(direction.z());
   query.ray.tnear = float(ray.least) * (1 - rangeSlack);
   query.ray.tfar = float(ray.most) * (1 + rangeSlack);
   query.ray.mask = ~0U;

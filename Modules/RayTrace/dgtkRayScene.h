@@ -6,6 +6,7 @@
 #include "dgtkRayMesh.h"
 #include "dgtkVisibility.h"
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -130,8 +131,22 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
 void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles* triangles,
   std::vector<Hit>& found, std::vector<RayHit>& hits);
 
-/// Whether Embree's bounds of coherent packets may be used for rays of a view: they lose surfaces when the rays start
-/// at different points and run along an axis but for a rounding, as those of parallel projections do.
+/// A vector, or a matrix by its columns, whose components below half a rounding of the largest are 0. Embree's bounds
+/// of coherent packets lose surfaces where a ray has a component between -1e-18 and 0 in the axes of an instance (it
+/// sorts the ray among negative ones and divides by a positive number); products of two roundings are such components.
+template <typename Vectors>
+Vectors withoutRoundings(Vectors vectors)
+{
+  constexpr double least = 0x1p-24;
+  for (Eigen::Index i = 0; i < vectors.cols(); ++i)
+  {
+    const double limit = least * vectors.col(i).cwiseAbs().maxCoeff();
+    vectors.col(i) = vectors.col(i).unaryExpr([limit](double v) { return std::abs(v) < limit ? 0 : v; }).eval();
+  }
+  return vectors;
+}
+
+/// Whether the rays of a view are enough alike for Embree's bounds of coherent packets.
 bool isCoherent(const View& view);
 
 /// Part of t by which equally near surfaces may differ: a few roundings of vertices far from the origin.

@@ -41,8 +41,9 @@ template <bool Bare>
 class RaySource final : public VisibilitySource
 {
 public:
-  explicit RaySource(ThreadPool& pool)
+  explicit RaySource(ThreadPool& pool, bool coherent = true)
     : Pool(pool)
+    , Coherent(coherent)
     , Scene(RayDevice::shared(), Bare)
   {
   }
@@ -107,7 +108,7 @@ private:
       [&](int job)
       {
         ThreadPool alone(1);
-        RaySource source(alone);
+        RaySource source(alone, this->Coherent);
         VisibilityBuffer around;
         for (std::size_t i = job * partsOfJob; i < std::min(parts.size(), (job + 1) * partsOfJob); ++i)
         {
@@ -133,7 +134,7 @@ private:
         const WorkTime time(WorkStage::Trace);
         const int first = band * bandRows;
         const int last = std::min(rect.height, first + bandRows);
-        PacketTracer tracer(this->Scene, this->TheView);
+        PacketTracer tracer(this->Scene, this->TheView, this->Coherent);
         for (int x = 0; x < rect.width; x += side)
         {
           for (int y = first; y < last; y += side)
@@ -146,6 +147,7 @@ private:
   }
 
   ThreadPool& Pool;
+  bool Coherent;
   RayScene Scene;
   View TheView;
   RayMarks Marks;
@@ -154,7 +156,10 @@ private:
 
 } // namespace
 
-std::unique_ptr<VisibilitySource> makeRaySource(ThreadPool& pool) { return std::make_unique<RaySource<false>>(pool); }
+std::unique_ptr<VisibilitySource> makeRaySource(ThreadPool& pool, bool coherent)
+{
+  return std::make_unique<RaySource<false>>(pool, coherent);
+}
 
 std::unique_ptr<VisibilitySource> makeBareRaySource(ThreadPool& pool)
 {

@@ -16,9 +16,10 @@ namespace dgtk
 /// precision cannot be sure: near an edge, at the near and far plane, and where surfaces coincide (nearest within a
 /// relative 1e-9: the lowest object, then triangle). A ray exactly through an edge that triangles share meets one of
 /// them. `pool` shares the work and must outlive the engine. Any rectangle inside the image may be rendered.
-/// near and far bound the ray's parameter t, which is the depth for linear cameras.
-/// Throws MachineError when Embree cannot work (no memory).
-DGTKRAYTRACE_EXPORT std::unique_ptr<VisibilitySource> makeRaySource(ThreadPool& pool);
+/// near and far bound the ray's parameter t, which is the depth for linear cameras. `coherent`: Embree bounds the rays
+/// of a packet together, which takes half the time; a referee bounds each ray by itself. Throws MachineError when
+/// Embree cannot work (no memory).
+DGTKRAYTRACE_EXPORT std::unique_ptr<VisibilitySource> makeRaySource(ThreadPool& pool, bool coherent = true);
 
 /// The yardstick of the engine above, for benchmarks: Embree's bare primary rays in packets of 16, nothing but ids
 /// recorded, cut-out textures ignored, nothing settled.

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -78,27 +79,30 @@ std::optional<Pair> movedDisparityPair(Picture& picture, const std::string& laye
   return pair;
 }
 
-/// correspondence_<camera>, with +N or -N frames.
+/// correspondence_<camera>, or with +N or -N frames where no camera has the whole name.
 std::optional<Pair> correspondencePair(Picture& picture, const std::string& layer)
 {
+  const std::vector<std::string>& names = picture.dataset().stage().cameraNames();
+  const auto isCamera = [&](const std::string& name)
+  { return std::find(names.begin(), names.end(), name) != names.end(); };
   const std::string rest = layer.substr(std::string("correspondence_").size());
-  for (const std::string& name : picture.dataset().stage().cameraNames())
+  if (isCamera(rest))
   {
-    if (rest.compare(0, name.size(), name) != 0)
-    {
-      continue;
-    }
-    const char* begin = rest.data() + name.size();
-    const char* end = rest.data() + rest.size();
-    int offset = 0;
-    begin += begin != end && *begin == '+';
-    const auto [stop, error] = std::from_chars(begin, end, offset);
-    if (rest.size() == name.size() || (error == std::errc() && stop == end))
-    {
-      return Pair{ layer, PairKind::Place, name, picture.frame() + offset, nullptr, offset == 0 };
-    }
+    return Pair{ layer, PairKind::Place, rest, picture.frame(), nullptr, true };
   }
-  return std::nullopt;
+  const std::size_t sign = rest.find_last_of("+-");
+  if (sign == std::string::npos || !isCamera(rest.substr(0, sign)))
+  {
+    return std::nullopt;
+  }
+  int offset = 0;
+  const char* const end = rest.data() + rest.size();
+  const auto [stop, error] = std::from_chars(rest.data() + sign + (rest[sign] == '+' ? 1 : 0), end, offset);
+  if (error != std::errc() || stop != end)
+  {
+    return std::nullopt;
+  }
+  return Pair{ layer, PairKind::Place, rest.substr(0, sign), picture.frame() + offset, nullptr, offset == 0 };
 }
 
 std::optional<Pair> pairOf(Picture& picture, const std::string& layer)

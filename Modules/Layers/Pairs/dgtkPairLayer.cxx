@@ -150,40 +150,41 @@ struct Pair
   std::size_t from = 0;
   std::size_t to = 0;
   int offset = 0;
+  std::string text = {}; ///< as the request names it
 };
 
-/// "A:B", "A:B+1", "A:B-2"; names may hold signs.
-bool parsePair(const std::string& text, const std::vector<std::string>& names, Pair& pair)
+/// "A:B", "A:B+1", "A:B-2". Names hold no colons, but maybe signs: a camera of the whole name comes first. No number
+/// begins with 0, so that no two texts mean one folder.
+bool parsePair(const std::vector<std::string>& names, Pair& pair)
 {
-  for (pair.from = 0; pair.from < names.size(); ++pair.from)
+  const auto find = [&](const std::string& name, std::size_t& camera)
   {
-    const std::string& from = names[pair.from];
-    if (text.compare(0, from.size() + 1, from + ':') != 0)
-    {
-      continue;
-    }
-    for (pair.to = 0; pair.to < names.size(); ++pair.to)
-    {
-      const std::string& to = names[pair.to];
-      if (text.compare(from.size() + 1, to.size(), to) != 0)
-      {
-        continue;
-      }
-      const std::string rest = text.substr(from.size() + 1 + to.size());
-      const bool digits = rest.size() > 1 && rest.size() < 8 && (rest[0] == '+' || rest[0] == '-') &&
-                          rest.find_first_not_of("0123456789", 1) == std::string::npos;
-      pair.offset = digits ? std::stoi(rest) : 0;
-      if (rest.empty() || digits)
-      {
-        return true;
-      }
-    }
+    camera = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    return camera < names.size();
+  };
+  const std::size_t colon = pair.text.find(':');
+  if (colon == std::string::npos || !find(pair.text.substr(0, colon), pair.from))
+  {
+    return false;
   }
-  return false;
+  const std::string other = pair.text.substr(colon + 1);
+  if (find(other, pair.to))
+  {
+    return true;
+  }
+  const std::size_t sign = other.find_last_of("+-");
+  const std::string step = sign == std::string::npos ? "" : other.substr(sign);
+  if (step.size() < 2 || step.size() > 7 || step[1] == '0' ||
+      step.find_first_not_of("0123456789", 1) != std::string::npos)
+  {
+    return false;
+  }
+  pair.offset = std::stoi(step);
+  return find(other.substr(0, sign), pair.to);
 }
 
-/// The pairs of a request, without repetition, in its order. Of those that are named, with `own`, only such as may
-/// begin at that camera: thousands, for each of thousands of pictures, would take minutes.
+/// The pairs of a request, without repetition, in its order; with `own`, those that begin at that camera: thousands,
+/// for each of thousands of pictures, would take minutes.
 std::vector<Pair> pairsOf(
   const WorkPlan& plan, const Stage& stage, const std::optional<std::size_t>& own = std::nullopt)
 {
@@ -201,7 +202,7 @@ std::vector<Pair> pairsOf(
     {
       for (const std::size_t to : cameras)
       {
-        if (from != to)
+        if (from != to && from == own.value_or(from))
         {
           pairs.push_back({ from, to, 0 });
         }
@@ -209,15 +210,17 @@ std::vector<Pair> pairsOf(
     }
     return pairs;
   }
+  std::set<std::string> known;
   const std::string start = own ? names[*own] + ':' : std::string();
   for (const std::string& text : texts)
   {
-    if (text.compare(0, start.size(), start) != 0)
+    if (text.compare(0, start.size(), start) != 0 || !known.insert(text).second)
     {
       continue;
     }
     Pair pair;
-    if (!parsePair(text, names, pair))
+    pair.text = text;
+    if (!parsePair(names, pair))
     {
       throw UsageError(
         "pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " + quoted(text));
@@ -244,15 +247,14 @@ public:
   }
   void check(const WorkPlan& plan, const Stage& stage, const PlannedLayer&) const override
   {
-    const std::vector<Pair> pairs = pairsOf(plan, stage);
-    const std::vector<std::string> texts = pairTexts(plan);
-    for (std::size_t i = 0; i < texts.size(); ++i)
+    for (const Pair& pair : pairsOf(plan, stage))
     {
-      if (std::none_of(plan.jobs.begin(), plan.jobs.end(),
-            [&](const Job& job) { return job.camera == pairs[i].from && isFrame(stage, job.frame + pairs[i].offset); }))
+      if (!pair.text.empty() &&
+          std::none_of(plan.jobs.begin(), plan.jobs.end(),
+            [&](const Job& job) { return job.camera == pair.from && isFrame(stage, job.frame + pair.offset); }))
       {
         throw UsageError(
-          "pair " + quoted(texts[i]) + " leads from every frame of this run to one that " + "the scene does not have");
+          "pair " + quoted(pair.text) + " leads from every frame of this run to one that the scene does not have");
       }
     }
   }

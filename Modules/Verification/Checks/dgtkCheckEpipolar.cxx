@@ -17,8 +17,10 @@ namespace
 constexpr double epipolarTolerance = 1e-9;
 /// Of the scene's size: the rounding of places, divided by the angle between the rays.
 constexpr double triangulationTolerance = 1e-10;
-/// Radians: below this angle between the rays, rounding of pixels alone moves a point farther than the tolerance.
-constexpr double leastAngle = 1e-3;
+/// Radians between the rays. Rounding moves a point in inverse proportion to them, so that the tolerance grows below
+/// the first; below the second, as of two cameras in one place, the rays meet nowhere in double precision.
+constexpr double usualAngle = 1e-3;
+constexpr double leastAngle = 1e-9;
 constexpr int lastInside = 3; ///< visible, or hidden inside the image
 
 /// Image of a homogeneous point of the first camera's frame in the second image.
@@ -112,7 +114,7 @@ public:
 
   void row(int y, Meter& meter) const
   {
-    std::vector<int> columns;
+    std::vector<Seen> row;
     std::vector<cv::Point2d> first;
     std::vector<cv::Point2d> second;
     for (int x = 0; x < this->Owner.width(); ++x)
@@ -121,44 +123,53 @@ public:
       {
         continue;
       }
-      const Eigen::Vector3d a = this->Owner.eye().ray(centreOf(x, y)).direction;
-      const Eigen::Vector3d b = this->Other.ray(this->Images.values->at2(x, y)).direction;
-      const Eigen::Vector3d turned = this->Second_from_first.rotation * a;
-      if (std::atan2(turned.cross(b).norm(), turned.dot(b)) < leastAngle)
+      const Eigen::Vector3d point = this->Owner.point(x, y);
+      const Eigen::Vector3d turned = this->Second_from_first.rotation * point;
+      const Eigen::Vector3d other = turned + this->Second_from_first.translation;
+      const double angle = std::atan2(turned.cross(other).norm(), turned.dot(other));
+      if (angle < leastAngle)
       {
-        meter.skip();
         continue;
       }
-      columns.push_back(x);
+      row.push_back({ x, point, std::min(1.0, angle / usualAngle) });
+      const Eigen::Vector3d a = this->Owner.eye().ray(centreOf(x, y)).direction;
+      const Eigen::Vector3d b = this->Other.ray(this->Images.values->at2(x, y)).direction;
       first.emplace_back(a.x(), a.y());
       second.emplace_back(b.x(), b.y());
     }
-    if (!columns.empty())
+    if (!row.empty())
     {
-      this->compare(y, columns, first, second, meter);
+      this->compare(y, row, first, second, meter);
     }
   }
 
 private:
-  void compare(int y, const std::vector<int>& columns, const std::vector<cv::Point2d>& first,
+  struct Seen
+  {
+    int x;
+    Eigen::Vector3d point;
+    double weight; ///< of its error
+  };
+
+  void compare(int y, const std::vector<Seen>& row, const std::vector<cv::Point2d>& first,
     const std::vector<cv::Point2d>& second, Meter& meter) const
   {
     cv::Mat points;
     cv::triangulatePoints(projectionOf({}), projectionOf(this->Second_from_first), first, second, points);
-    for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t i = 0; i < row.size(); ++i)
     {
       const int column = static_cast<int>(i);
       const double w = points.at<double>(3, column);
       const Eigen::Vector3d found(
         points.at<double>(0, column) / w, points.at<double>(1, column) / w, points.at<double>(2, column) / w);
-      const Eigen::Vector3d expected = this->Owner.point(columns[i], y);
-      meter.add((found - expected).norm() / this->Size / this->Owner.eye().farness(expected.z()),
-        [&]
+      const auto& [x, expected, weight] = row[i];
+      meter.add(weight * (found - expected).norm() / this->Size / this->Owner.eye().farness(expected.z()),
+        [&, x = x, expected = expected]
         {
           const Eigen::Vector3d from = this->Owner.eye().toWorld(found);
           const Eigen::Vector3d to = this->Owner.eye().toWorld(expected);
           return this->Images.values->offender(
-            columns[i], y, "the point " + numbersText(from.data(), 3), numbersText(to.data(), 3));
+            x, y, "the point " + numbersText(from.data(), 3), numbersText(to.data(), 3));
         });
     }
   }

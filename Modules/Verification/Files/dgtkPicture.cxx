@@ -261,7 +261,7 @@ void Picture::resolveRow(const Claims& claims, int y, int& patience)
 std::vector<Hit> Picture::ownHits() const
 {
   VisibilityBuffer buffer;
-  const std::unique_ptr<VisibilitySource> rays = makeRaySource(this->pool());
+  const std::unique_ptr<VisibilitySource> rays = makeRaySource(this->pool(), false);
   if (!this->Time->rolls())
   {
     rays->setScene(this->sight().statePointer(), this->eye().view());

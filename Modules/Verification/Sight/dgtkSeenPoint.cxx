@@ -10,8 +10,16 @@ namespace dgtk
 
 namespace
 {
-/// By the ray through `pixel`, on which the point has the same depth as on its own.
-int classBeside(const Sight& sight, const SeenPoint& point, const Eigen::Vector2d& pixel, double slack)
+/// Whether a surface that the ray through a pixel meets at a range is met at its very edge.
+bool isGrazed(const Sight& sight, const Hit& hit, const Eigen::Vector2d& pixel, double range)
+{
+  return sight.weights(hit, sight.eye().at(pixel, range)).minCoeff() < seenSlack;
+}
+
+/// By the ray through `pixel`, on which the point has the same depth as on its own. `narrow`: the ray passes what it
+/// meets at its very edge.
+int classBeside(
+  const Sight& sight, const SeenPoint& point, const Eigen::Vector2d& pixel, double slack, bool narrow = false)
 {
   if (point.gone)
   {
@@ -31,7 +39,7 @@ int classBeside(const Sight& sight, const SeenPoint& point, const Eigen::Vector2
   const double own = sight.eye().range(point.pixel, point.x_in_camera);
   for (std::size_t i = 0; i < hits.size(); ++i)
   {
-    if (hits[i] != point.hit && ranges[i] / own < 1 - slack)
+    if (hits[i] != point.hit && ranges[i] / own < 1 - slack && !(narrow && isGrazed(sight, hits[i], pixel, ranges[i])))
     {
       return hits[i].object == point.hit.object ? OwnObjectSeen : OtherObjectSeen;
     }
@@ -61,7 +69,9 @@ bool isOpenClass(const Sight& sight, const SeenPoint& point, int found)
   {
     return false;
   }
-  if (classBeside(sight, point, point.pixel, silhouetteReach) == found)
+  // Between two surfaces that end in one plane with the camera, there is a way that has no width.
+  if (classBeside(sight, point, point.pixel, silhouetteReach) == found ||
+      classBeside(sight, point, point.pixel, seenSlack, true) == found)
   {
     return true;
   }
