@@ -2,6 +2,8 @@
 #ifndef dgtkExactRay_h
 #define dgtkExactRay_h
 
+#include "dgtkExactSide.h"
+
 #include <Eigen/Core>
 
 #include <cmath>
@@ -37,20 +39,6 @@ inline Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return { a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x() };
 }
 
-/// Side of the line on which the direction passes. Of a direction on the line, the side to which an infinitely small
-/// turn towards x, else y, else z moves it: two triangles that share the edge see opposite sides, so one is met.
-inline int side(double value, const Eigen::Vector3d& line)
-{
-  for (const double v : { value, line.x(), line.y(), line.z() })
-  {
-    if (v != 0)
-    {
-      return v > 0 ? 1 : -1;
-    }
-  }
-  return 0;
-}
-
 } // namespace exact
 
 /// A triangle as seen from a point: what rays from there have in common.
@@ -64,11 +52,13 @@ struct TriangleFrom
     {
       this->line[i] = exact::cross(this->x[(i + 1) % 3], this->x[(i + 2) % 3]);
       this->edge[i] = (this->x[(i + 1) % 3] - this->x[i]).squaredNorm();
+      this->square[i] = this->x[i].squaredNorm();
     }
   }
   Eigen::Vector3d x[3];    ///< corners
   Eigen::Vector3d line[3]; ///< normals of the planes through the point and the edges opposite of the corners
   double edge[3];          ///< squares of the lengths from each corner to the next
+  double square[3];        ///< of the distances of the corners
 };
 
 /// A triangle as a ray meets it.
@@ -77,10 +67,22 @@ struct SeenTriangle
   SeenTriangle(const ExactRay& ray, const TriangleFrom& origin)
     : from(origin)
   {
+    constexpr double rounding = 0x1p-49; // of a volume, parts of the product of its sides
+    const double limit = rounding * rounding * ray.direction.squaredNorm();
     for (int i = 0; i < 3; ++i)
     {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
       this->volume[i] = origin.line[i].dot(ray.direction);
-      this->sides += exact::side(this->volume[i], origin.line[i]);
+      const double square = this->volume[i] * this->volume[i];
+      if (square > limit * origin.square[j] * origin.square[k])
+      {
+        this->sides += this->volume[i] > 0 ? 1 : -1;
+        continue;
+      }
+      const int side = exactSide(ray.direction, origin.x[j], origin.x[k]);
+      this->sides += side;
+      this->volume[i] = side * this->volume[i] > 0 ? this->volume[i] : 0;
     }
   }
   const TriangleFrom& from;
@@ -100,19 +102,18 @@ inline ExactHit intersectExactly(const ExactRay& ray, const SeenTriangle& seen)
   return hit;
 }
 
-/// Whether a ray passes an edge at a distance below `slack`, in units of the scene at t.
-inline bool isMarginal(const ExactRay& ray, const SeenTriangle& seen, double slack)
+/// The edges that a ray passes at a distance below `slack`, in units of the scene at t: bit i for the one from corner i
+/// to the next.
+inline unsigned int marginalEdges(const ExactRay& ray, const SeenTriangle& seen, double slack)
 {
   const double limit = slack * slack * ray.direction.squaredNorm();
+  unsigned int edges = 0;
   for (int i = 0; i < 3; ++i)
   {
     const double volume = seen.volume[(i + 2) % 3];
-    if (!(volume * volume > limit * seen.from.edge[i]))
-    {
-      return true;
-    }
+    edges |= unsigned(!(volume * volume > limit * seen.from.edge[i])) << i;
   }
-  return false;
+  return edges;
 }
 
 } // namespace dgtk

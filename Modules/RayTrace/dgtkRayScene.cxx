@@ -149,6 +149,11 @@ bool RayScene::isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exac
            isCutOut(this->State->instances[hit.object - 1], hit.triangle, exact.barycentrics));
 }
 
+double RayScene::slackAt(const ExactRay& ray, const Hit& hit, double t) const
+{
+  return rayPrecision * (std::abs(t) * ray.direction.norm() + this->Instances[hit.object - 1].reach);
+}
+
 ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit) const
 {
   ExactHit exact = this->intersectTriangle(ray, hit);
@@ -162,10 +167,56 @@ ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertai
   const TriangleFrom& from = triangles ? triangles->from(ray.origin, hit) : (own = this->triangleFrom(ray.origin, hit));
   const SeenTriangle seen(ray, from);
   ExactHit exact = intersectExactly(ray, seen);
-  const double reach = this->Instances[hit.object - 1].reach;
-  uncertain = isMarginal(ray, seen, rayPrecision * (std::abs(exact.t) * ray.direction.norm() + reach));
+  uncertain = marginalEdges(ray, seen, this->slackAt(ray, hit, exact.t)) != 0;
   exact.inside = this->isThere(ray, hit, exact);
   return exact;
+}
+
+namespace
+{
+struct FanQuery
+{
+  const RayMesh* mesh;
+  std::uint32_t object;
+  std::vector<Hit>* hits;
+};
+
+bool addToFan(RTCPointQueryFunctionArguments* arguments)
+{
+  const FanQuery& fan = *static_cast<FanQuery*>(arguments->userPtr);
+  fan.hits->push_back({ fan.object, fan.mesh->firstTriangle[arguments->geomID] + arguments->primID });
+  return false;
+}
+} // namespace
+
+void RayScene::addFans(const ExactRay& ray, std::vector<Hit>& hits) const
+{
+  std::vector<std::pair<std::uint32_t, Eigen::Vector3d>> known;
+  for (std::size_t i = 0, count = hits.size(); i < count; ++i)
+  {
+    const Hit hit = hits[i];
+    const TriangleFrom from = this->triangleFrom(ray.origin, hit);
+    const SeenTriangle seen(ray, from);
+    const unsigned int edges = marginalEdges(ray, seen, this->slackAt(ray, hit, intersectExactly(ray, seen).t));
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const unsigned int both = 1U << corner | 1U << (corner + 2) % 3;
+      const std::pair<std::uint32_t, Eigen::Vector3d> key(hit.object, from.x[corner]);
+      if ((edges & both) != both || std::find(known.begin(), known.end(), key) != known.end())
+      {
+        continue;
+      }
+      known.push_back(key);
+      const RayMesh& mesh = *this->Instances[hit.object - 1].mesh;
+      Eigen::Vector3d x = mesh.geometry->positions[mesh.model->triangles[hit.triangle][corner]] - mesh.centre;
+      x = mesh.baked ? Eigen::Vector3d(this->State->instances[hit.object - 1].world_from_object.linear * x) : x;
+      RTCPointQuery query{ float(x.x()), float(x.y()), float(x.z()), 0, float(rayPrecision) * mesh.radius };
+      RTCPointQueryContext context;
+      rtcInitPointQueryContext(&context);
+      FanQuery fan{ &mesh, hit.object, &hits };
+      rtcPointQuery(mesh.scene, &query, &context, &addToFan, &fan);
+    }
+  }
 }
 
 double RayScene::errorInPixels(const View& view) const
@@ -296,6 +347,7 @@ void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTri
     const double turn = 4 * rayPrecision * ray.direction.norm();
     traceAround(scene, ray, 0, turn, found);
     traceAround(scene, ray, 4 * rayPrecision * scene.reach(), turn, found);
+    scene.addFans(ray, found);
     std::sort(found.begin(), found.end(),
       [](const Hit& a, const Hit& b) { return a.object != b.object ? a.object < b.object : a.triangle < b.triangle; });
     found.erase(std::unique(found.begin(), found.end()), found.end());

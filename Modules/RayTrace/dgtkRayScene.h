@@ -61,10 +61,14 @@ public:
   ExactHit intersect(const ExactRay& ray, const Hit& hit) const;
   /// The same without the range and the texels.
   ExactHit intersectTriangle(const ExactRay& ray, const Hit& hit) const;
+  /// Where a ray passes corners of triangles as closely as single precision goes, all triangles that come as near to
+  /// them are added: around a corner there may be more than rays beside this one meet.
+  void addFans(const ExactRay& ray, std::vector<Hit>& hits) const;
 
   TriangleFrom triangleFrom(const Eigen::Vector3d& origin, const Hit& hit) const;
 
 private:
+  double slackAt(const ExactRay& ray, const Hit& hit, double t) const;
   bool isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const;
   void setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& mesh);
   void placeInstance(std::size_t index);

@@ -2,12 +2,17 @@
 // Rays that run along a plane of an instance's axes but for a rounding: the middle of a picture that has an odd size.
 #include "dgtkRaySource.h"
 
+#include "dgtkExactRay.h"
+
 #include "dgtkRayTestScenes.h"
 #include "dgtkThreadPool.h"
+
+#include <Eigen/Geometry>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 namespace
 {
@@ -129,5 +134,111 @@ TEST(RaysAlongAxes, WhatABallHidesStaysHidden)
     {
       EXPECT_EQ(found[i].object, 1u) << tiny << ", " << i;
     }
+  }
+}
+
+/// At the pole of a ball many triangles meet, of which at most some rounded rays around it find each one.
+TEST(RaysAlongAxes, APoleIsNoHole)
+{
+  ThreadPool pool(1);
+  const auto source = makeRaySource(pool);
+  const auto query = makeOcclusionQuery();
+  const std::vector<std::pair<Eigen::Vector3d, double>> turns{ { { 1, 0, 0 }, 0.5 }, { { 1, 0, 0 }, -0.5 },
+    { { 0, 0, 1 }, 0.5 }, { { 0, 0, 1 }, -0.5 } };
+  for (const auto& [axis, turn] : turns)
+  {
+    for (const double size : { 1.0, 0.7, 0.1 })
+    {
+      for (const int segments : { 8, 20, 60, 200 })
+      {
+        const auto ball = makeSphere({ { 0, 0, 0 }, 1, 6, segments });
+        const auto state = SceneBuilder().add(ball, placement({ 0, 0, 0 }, size, axis, turn * M_PI)).state();
+        for (const double rounding : { 0.0, 1e-17, -1e-17, 1e-16, 3e-16 })
+        {
+          ViewOptions options;
+          options.width = options.height = 9;
+          options.eye = axis.x() != 0 ? Eigen::Vector3d(rounding, 0, 5) : Eigen::Vector3d(5, 0, rounding);
+          const View view = makeView(options);
+          source->setScene(state, view);
+          VisibilityBuffer buffer;
+          source->render({ 4, 4, 1, 1 }, buffer);
+          EXPECT_EQ(buffer.at(4, 4).object, 1u) << segments << " triangles, " << rounding;
+          query->setScene(state);
+          std::vector<Hit> hits;
+          query->allHits(view, Eigen::Vector2d(4.5, 4.5), hits);
+          EXPECT_EQ(hits.size(), 2u) << segments << " triangles, " << rounding;
+        }
+      }
+    }
+  }
+}
+
+TEST(ExactSide, IsThatOfWholeNumbers)
+{
+  std::mt19937_64 random(1);
+  const auto vector = [&](std::int64_t range)
+  {
+    const auto number = [&] { return double(std::int64_t(random() % std::uint64_t(2 * range + 1)) - range); };
+    return Eigen::Vector3d(number(), number(), number());
+  };
+  const auto side = [](const Eigen::Vector3d& d, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+  {
+    __int128 line[3];
+    __int128 volume = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      line[i] = __int128(a[j]) * __int128(b[k]) - __int128(a[k]) * __int128(b[j]);
+      volume += __int128(d[i]) * line[i];
+    }
+    for (const __int128 v : { volume, line[0], line[1], line[2] })
+    {
+      if (v != 0)
+      {
+        return v > 0 ? 1 : -1;
+      }
+    }
+    return 0;
+  };
+  int zeros = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    // Up to 2^40, and mostly all but in one plane.
+    const Eigen::Vector3d a = vector(1LL << (i % 3 == 0 ? 2 : 38));
+    const Eigen::Vector3d b = i % 7 == 0 ? Eigen::Vector3d(3 * a) : vector(1LL << (i % 3 == 0 ? 2 : 38));
+    const Eigen::Vector3d d = i % 5 == 0 ? vector(1LL << 38) : Eigen::Vector3d(a + (i % 2) * b + vector(i % 4 / 2));
+    EXPECT_EQ(exactSide(d, a, b), side(d, a, b)) << i;
+    EXPECT_EQ(exactSide(d, b, a), -exactSide(d, a, b)) << i;
+    zeros += d.dot(a.cross(b)) == 0;
+  }
+  EXPECT_GT(zeros, 1000);
+}
+
+TEST(ExactSide, RaysThroughACornerMeetOneTriangle)
+{
+  std::mt19937 random(1);
+  const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+  for (int i = 0; i < 3000; ++i)
+  {
+    const Eigen::Vector3d corner(number(), number(), 4 + number());
+    std::vector<Eigen::Vector3d> around;
+    const int count = 4 + i % 20;
+    for (int k = 0; k < count; ++k)
+    {
+      const double angle = 2 * M_PI * (k + 0.4 * number()) / count;
+      around.push_back(corner + 0.1 * Eigen::Vector3d(std::cos(angle), std::sin(angle), number()));
+    }
+    const ExactRay ray{ { 0, 0, 0 }, corner / (i % 2 == 0 ? corner.z() : corner.norm()), 0.1, 100 };
+    int inside = 0;
+    for (int k = 0; k < count; ++k)
+    {
+      const Eigen::Vector3d corners[3] = { corner, around[std::size_t(k)], around[std::size_t((k + 1) % count)] };
+      const TriangleFrom from(ray.origin, corners);
+      const ExactHit hit = intersectExactly(ray, SeenTriangle(ray, from));
+      inside += hit.inside;
+      EXPECT_TRUE(!hit.inside || (hit.barycentrics.minCoeff() >= 0 && hit.barycentrics.sum() <= 1));
+    }
+    EXPECT_EQ(inside, 1) << i;
   }
 }
