@@ -227,7 +227,7 @@ TEST(ExactSide, RaysThroughACornerMeetOneTriangle)
     for (int k = 0; k < count; ++k)
     {
       const double angle = 2 * M_PI * (k + 0.4 * number()) / count;
-      around.push_back(corner + 0.1 * Eigen::Vector3d(std::cos(angle), std::sin(angle), number()));
+      around.push_back(corner + 0.1 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.1 * number()));
     }
     const ExactRay ray{ { 0, 0, 0 }, corner / (i % 2 == 0 ? corner.z() : corner.norm()), 0.1, 100 };
     int inside = 0;
