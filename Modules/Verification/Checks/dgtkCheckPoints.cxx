@@ -362,7 +362,7 @@ void checkCloud(Dataset& dataset, const std::string& file, int frame, Results& r
     check.ply(dataset, ply, meter, normals, colors);
     results.add({ "ply", "", { ply } }, meter);
     results.add({ "normals", "1", { ply } }, normals);
-    results.add({ "colors", "1/255", { ply }, mostOpenTexels }, colors);
+    results.add({ "colors", "1/255", { ply } }, colors);
   }
 }
 } // namespace

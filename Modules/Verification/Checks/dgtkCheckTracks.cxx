@@ -146,7 +146,7 @@ public:
     };
     results.add({ "places", "pixel", { view.file } }, measure(seenTolerance, &TracksCheck::place));
     results.add({ "classes", "", { view.file } }, measure(0, &TracksCheck::visibility));
-    results.add({ "colors", "1/255", { this->File }, mostOpenTexels }, measure(colorTolerance, &TracksCheck::color));
+    results.add({ "colors", "1/255", { this->File } }, measure(colorTolerance, &TracksCheck::color));
   }
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSurfaceColor.h"
 
-#include <algorithm>
+#include <vector>
 
 namespace dgtk
 {
@@ -10,6 +10,16 @@ namespace
 {
 /// Texels: as close to the border of two, either is right.
 constexpr double texelSlack = 1e-6;
+
+/// The texel that holds a place, counted from the lower left; a texture repeats.
+Eigen::Vector3d texelAt(const Image& image, const Eigen::Array2d& place)
+{
+  const Eigen::Array2d size(image.width, image.height);
+  const Eigen::Array2d cell = place.floor() - (place.floor() / size).floor() * size;
+  const std::size_t row = std::size_t(image.height) - 1 - std::size_t(cell.y());
+  const std::uint8_t* rgba = &image.rgba[(row * image.width + std::size_t(cell.x())) * 4];
+  return Eigen::Vector3d(rgba[0], rgba[1], rgba[2]) / 255;
+}
 } // namespace
 
 void meterColor(const Instance& instance, const Hit& hit, const Eigen::Vector3d& weights, const std::uint8_t* color,
@@ -17,7 +27,7 @@ void meterColor(const Instance& instance, const Hit& hit, const Eigen::Vector3d&
 {
   const Model& model = *instance.model;
   const Material& material = (*instance.materials)[model.parts[model.partOf(hit.triangle)].material];
-  Eigen::Vector3d expected = material.diffuse;
+  Eigen::Vector3d albedo = material.diffuse;
   if (!model.colors.empty())
   {
     Eigen::Vector3d mixed(0, 0, 0);
@@ -26,8 +36,9 @@ void meterColor(const Instance& instance, const Hit& hit, const Eigen::Vector3d&
       const std::array<std::uint8_t, 4>& corner = model.colors[model.triangles[hit.triangle][i]];
       mixed += weights[i] / 255 * Eigen::Vector3d(corner[0], corner[1], corner[2]);
     }
-    expected = expected.cwiseProduct(mixed).eval();
+    albedo = albedo.cwiseProduct(mixed).eval();
   }
+  std::vector<Eigen::Vector3d> texels{ { 1, 1, 1 } };
   if (material.texture >= 0 && !model.uvs.empty() && model.textures[material.texture].image)
   {
     Eigen::Vector2d uv(0, 0);
@@ -36,25 +47,30 @@ void meterColor(const Instance& instance, const Hit& hit, const Eigen::Vector3d&
       uv += weights[i] * model.uvs[model.triangles[hit.triangle][i]];
     }
     const Image& image = *model.textures[material.texture].image;
-    const Eigen::Array2d size(image.width, image.height);
-    const Eigen::Array2d texel = uv.array() * size;
-    if (!((texel - texel.round()).abs() > texelSlack).all())
+    const Eigen::Array2d place = uv.array() * Eigen::Array2d(image.width, image.height);
+    texels.clear();
+    for (const double x : { -texelSlack, texelSlack })
     {
-      meter.skip();
-      return;
+      for (const double y : { -texelSlack, texelSlack })
+      {
+        texels.push_back(texelAt(image, place + Eigen::Array2d(x, y)));
+      }
     }
-    const Eigen::Array2d cell = texel.floor() - (texel.floor() / size).floor() * size;
-    const std::size_t row = std::size_t(image.height) - 1 - std::size_t(cell.y());
-    const std::uint8_t* rgba = &image.rgba[(row * image.width + std::size_t(cell.x())) * 4];
-    expected = expected.cwiseProduct(Eigen::Vector3d(rgba[0], rgba[1], rgba[2]) / 255);
   }
   const Eigen::Vector3d found(color[0], color[1], color[2]);
-  for (int i = 0; i < 3; ++i)
+  double least = infinite;
+  Eigen::Vector3d nearest(0, 0, 0);
+  for (const Eigen::Vector3d& texel : texels)
   {
-    expected[i] = 255 * std::clamp(expected[i], 0.0, 1.0);
+    const Eigen::Vector3d expected = 255 * albedo.cwiseProduct(texel).cwiseMax(0).cwiseMin(1);
+    const double error = (found - expected).cwiseAbs().maxCoeff();
+    if (error < least)
+    {
+      least = error;
+      nearest = expected;
+    }
   }
-  meter.add((found - expected).cwiseAbs().maxCoeff(),
-    [&] { return where(numbersText(found.data(), 3), numbersText(expected.data(), 3)); });
+  meter.add(least, [&] { return where(numbersText(found.data(), 3), numbersText(nearest.data(), 3)); });
 }
 
 } // namespace dgtk

@@ -334,8 +334,12 @@ TEST(Slacks, BordersOfTexels)
   };
   for (const double sign : { 1.0, -1.0 })
   {
-    EXPECT_EQ(measured(0.5 + sign * 0.5e-7, 0.2, 200).Skipped, 1u);
-    EXPECT_EQ(measured(0.2, 0.5 + sign * 0.5e-7, 200).Skipped, 1u);
+    for (const int red : { 0, 200, 100 })
+    {
+      EXPECT_EQ(measured(0.5 + sign * 0.5e-7, 0.2, std::uint8_t(red)).Bad, red == 100 ? 1u : 0u) << "either, no other";
+      EXPECT_EQ(measured(0.2, 0.5 + sign * 0.5e-7, std::uint8_t(red)).Bad, red == 100 ? 1u : 0u);
+    }
+    EXPECT_EQ(measured(sign * 0.5e-7, 0, 200).Bad, 0u) << "where the texture begins again";
     EXPECT_EQ(measured(0.5 + sign * 0.5e-5, 0.2, 200).Bad, sign > 0 ? 1u : 0u);
     EXPECT_EQ(measured(0.2, 0.5 + sign * 0.5e-5, 200).Bad, sign > 0 ? 1u : 0u);
   }
