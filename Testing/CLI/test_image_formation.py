@@ -325,6 +325,22 @@ class ImageFormation(harness.Case):
         self.refused("render", self.path("scene.json"), "-o", self.path("no"), "--filter", "gaussian", status=2,
                      says="samples")
 
+    def test_over_its_background_the_cut_out_picture_is_the_picture_again(self):
+        scene = {"background": [0.2, 0.4, 0.6], "objects": [{"name": "disc", "model": "disc.obj"}],
+                 "lights": [{"kind": "directional", "position": [0, 0, 1], "target": [0, 0, 0], "intensity": 1.6}],
+                 "cameras": [{"name": "c", "eye": [0, 0, 4], "lookAt": [0, 0, 0], "width": 48, "height": 36}]}
+        for name, options in {"plain": (), "brighter": ("--exposure", 1), "film": ("--exposure", -1, "--tone", "filmic")}.items():
+            out = self.render(scene, "--samples", 3, *options, layers="color,color_rgba", name=name)
+            color, rgba = (self.read(os.path.join(out, "c", layer, "000000.png")).astype(float) for layer in ("color", "color_rgba"))
+            share = rgba[..., 3:] / 255
+            self.assertGreater(((share > 0) & (share < 1)).sum(), 20)
+            apart = share * rgba[..., :3] + (1 - share) * color[0, 0] - color
+            self.assertLessEqual(np.abs(np.where((rgba[..., :3] == 255) & (apart < 0), 0, apart)).max(), 2, name)
+            self.dgtk("verify", out)
+        said = self.refused("render", self.path("scene.json"), "-o", self.path("no"), "--layers", "color_rgba", "--samples", 2,
+                            "--filter", "gaussian", status=2, says="color_rgba")
+        self.assertIn("filter box", said)
+
     def test_nothing_depends_on_threads_and_tiles(self):
         sky = np.zeros((16, 32, 3), np.float32) + np.array([0.2, 0.3, 0.5], np.float32)
         sky[:8] += 0.5

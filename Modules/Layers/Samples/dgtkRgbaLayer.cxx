@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layer color_rgba: the picture without its background.
 #include "dgtkLayers.h"
+#include "dgtkPictureCurve.h"
 #include "dgtkSamples.h"
 
 #include <algorithm>
@@ -37,12 +38,12 @@ std::vector<int> covered(const SampledRows& samples)
 }
 
 /// In display values, which are what the picture's samples are averaged in.
-void writePixel(const float* rgb, const Eigen::Vector3d& background, double share, std::uint8_t* out)
+void writePixel(const Eigen::Vector3d& rgb, const Eigen::Vector3d& background, double share, std::uint8_t* out)
 {
   constexpr double top = 255;
   for (int c = 0; c < 3; ++c)
   {
-    const double color = share > 0 ? (double(rgb[c]) - (1 - share) * background[c]) / share : 0;
+    const double color = share > 0 ? (rgb[c] - (1 - share) * background[c]) / share : 0;
     out[c] = static_cast<std::uint8_t>(std::lround(top * std::min(std::max(color, 0.0), 1.0)));
   }
   out[3] = static_cast<std::uint8_t>(std::lround(top * share));
@@ -52,7 +53,8 @@ class RgbaPass : public LayerPass
 {
 public:
   explicit RgbaPass(const JobContext& context)
-    : Background(context.state->background)
+    : Curve(context.plan.request)
+    , Background(this->curved(context.state->background))
     , Sampler(context.state, context.view, option::samples().of(context.plan.request.options),
         context.queries.makeSource(context.pool), context.pool)
   {
@@ -74,14 +76,23 @@ public:
       for (std::size_t i = 0; i < counts.size(); ++i)
       {
         const double share = double(counts[i]) / this->Samples.samples;
-        writePixel(band.rgb.data() + 3 * (first + i), this->Background, share, out + 4 * i);
+        const Eigen::Vector3d color = Eigen::Map<const Eigen::Vector3f>(&band.rgb[3 * (first + i)]).cast<double>();
+        writePixel(this->curved(color), this->Background, share, out + 4 * i);
       }
       sink.rows(0, rows);
     }
   }
 
 private:
-  Eigen::Vector3d Background; ///< sRGB
+  Eigen::Vector3d curved(const Eigen::Vector3d& color) const
+  {
+    return this->Curve.changes()
+             ? Eigen::Vector3d(color.unaryExpr([this](double v) { return double(this->Curve(float(v))); }))
+             : color;
+  }
+
+  PictureCurve Curve;
+  Eigen::Vector3d Background; ///< sRGB, as the picture shows it
   PixelSampler Sampler;
   SampledRows Samples;
 };
@@ -103,7 +114,8 @@ public:
   }
   std::string requirement() const override
   {
-    return "a camera without shutter and lens, drawn by the built-in renderer, and a background of one colour";
+    return "a camera without shutter and lens, drawn by the built-in renderer, a background of one colour, and pixels "
+           "that are the mean of their own samples (filter box)";
   }
   LayerNeeds needs(const LayerRequest&, const Stage&) const override
   {
@@ -120,7 +132,8 @@ public:
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
     const SceneDescription& scene = stage.description();
-    if (!drawsItself(plan.request) || scene.cameras[job.camera].blurs() || !hasPlainBackground(scene))
+    if (!drawsItself(plan.request) || !option::filter().isDefault(plan.request.options) ||
+        scene.cameras[job.camera].blurs() || !hasPlainBackground(scene))
     {
       return {};
     }

@@ -8,9 +8,6 @@ namespace dgtk
 
 namespace
 {
-/// Value of parts and triangles where there is nothing; a 16-bit file cannot hold it.
-constexpr std::uint32_t noId = 0xFFFFFFFFu;
-
 using IdOf = std::function<std::uint32_t(const Hit&)>;
 
 void checkFile(
@@ -47,21 +44,14 @@ void checkFile(
 
 void checkObjects(Picture& picture, Results& results)
 {
-  const Sight& sight = picture.sight();
-  const auto model = [&](const Hit& hit) -> const Model& { return *sight.instance(hit.object).model; };
   for (const char* suffix : { ".npy", ".png", ".ppm" })
   {
     checkFile(
       picture, "objects", suffix, [](const Hit& hit) { return hit.object; }, results);
     checkFile(
-      picture, "parts", suffix,
-      [&](const Hit& hit) { return hit.object == 0 ? noId : model(hit).partOf(hit.triangle); }, results);
+      picture, "parts", suffix, [&](const Hit& hit) { return picture.partId(hit); }, results);
     checkFile(
-      picture, "triangles", suffix,
-      [&](const Hit& hit) {
-        return hit.object == 0 ? noId : hit.triangle - model(hit).parts[model(hit).partOf(hit.triangle)].firstTriangle;
-      },
-      results);
+      picture, "triangles", suffix, [&](const Hit& hit) { return picture.triangleId(hit); }, results);
   }
 }
 

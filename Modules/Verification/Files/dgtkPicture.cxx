@@ -90,14 +90,19 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
       return false;
     }
   }
-  if (hit.object == 0)
-  {
-    return true;
-  }
-  const Model& model = *this->sight().instance(hit.object).model;
-  const std::uint32_t part = model.partOf(hit.triangle);
-  return (!claims.parts || claims.parts->id(x, y) == part) &&
-         (!claims.triangles || claims.triangles->id(x, y) == hit.triangle - model.parts[part].firstTriangle);
+  return (!claims.parts || claims.parts->id(x, y) == this->partId(hit)) &&
+         (!claims.triangles || claims.triangles->id(x, y) == this->triangleId(hit));
+}
+
+std::uint32_t Picture::partId(const Hit& hit) const
+{
+  return hit.object == 0 ? noId : this->sight().instance(hit.object).model->partOf(hit.triangle);
+}
+
+std::uint32_t Picture::triangleId(const Hit& hit) const
+{
+  const std::uint32_t part = this->partId(hit);
+  return part == noId ? noId : hit.triangle - this->sight().instance(hit.object).model->parts[part].firstTriangle;
 }
 
 std::vector<Hit> Picture::nearby(int x, int y) const

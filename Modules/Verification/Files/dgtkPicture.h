@@ -29,6 +29,9 @@ inline double depthTolerance(const PictureFile& depth)
 /// Wrong values of a few rows after which no pixel is looked around any more: the layer is wrong as a whole.
 constexpr std::uint64_t usualPatience = 256;
 
+/// Value of parts and triangles where there is nothing; a 16-bit file cannot hold it.
+constexpr std::uint32_t noId = 0xFFFFFFFFu;
+
 /// How the surface of a pixel was found.
 enum class Mark : std::uint8_t
 {
@@ -92,6 +95,9 @@ public:
   }
 
   const Surfaces& surfaces();
+  /// What files of parts and triangles say of a hit.
+  std::uint32_t partId(const Hit& hit) const;
+  std::uint32_t triangleId(const Hit& hit) const;
   /// The point seen by a pixel, camera frame: at the file's depth where it is float64, else at the triangle's. Only
   /// where surfaces().hits has an object.
   Eigen::Vector3d point(int x, int y) const;

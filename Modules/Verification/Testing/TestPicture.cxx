@@ -181,6 +181,25 @@ TEST(Dataset, CamerasOfOtherFramesAreTheScenes)
   EXPECT_FALSE(dataset->eye("b", 0, {}));
 }
 
+/// On the edge of a wall, a file may say that it is there, and that nothing is; also where it is the only one.
+TEST(Picture, FilesOfPartsAndTrianglesSayThatThereIsNothing)
+{
+  for (const std::string layer : { "parts", "triangles" })
+  {
+    for (const double pixels : { within, beyond })
+    {
+      for (const double off : { -pixels, pixels })
+      {
+        HandMade made({ rightOf(off, 2) });
+        const bool isThere = off < 0;
+        made.image("a/" + layer + "/000000.npy", 1,
+          [&](int x, int, int) { return x > 4 || (x == 4 && !isThere) ? 0.0 : double(noId); });
+        EXPECT_EQ(made.verify("objects", layer).bad, pixels == within ? 0u : 6u) << layer << off;
+      }
+    }
+  }
+}
+
 TEST(Dataset, FilesAreThoseOfTheirCameraFrameAndLayer)
 {
   HandMade made({ wallModel(2) }, {}, { "a", "b" });
