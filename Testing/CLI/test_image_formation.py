@@ -337,6 +337,13 @@ class ImageFormation(harness.Case):
             apart = share * rgba[..., :3] + (1 - share) * color[0, 0] - color
             self.assertLessEqual(np.abs(np.where((rgba[..., :3] == 255) & (apart < 0), 0, apart)).max(), 2, name)
             self.dgtk("verify", out)
+        # Edges that OpenGL rounds to the centres of pixels.
+        scene["objects"][0].update(model="square.obj", position=[4 / 32 * 8.50005 - 1, 4 / 32 * 0.49995, 0])
+        scene["cameras"][0]["K"] = [[32, 0, 24], [0, 32, 18], [0, 0, 1]]
+        out = self.render(scene, "--renderer", "vtk", layers="color,color_rgba", name="drawn")
+        color, rgba = (self.read(os.path.join(out, "c", layer, "000000.png")) for layer in ("color", "color_rgba"))
+        self.assertTrue(((rgba[..., 3] > 0) != (color != color[0, 0]).any(-1)).any(), "what is drawn differs at some edge")
+        self.dgtk("verify", out)
         said = self.refused("render", self.path("scene.json"), "-o", self.path("no"), "--layers", "color_rgba", "--samples", 2,
                             "--filter", "gaussian", status=2, says="color_rgba")
         self.assertIn("filter box", said)

@@ -83,7 +83,7 @@ void checkRgba(Picture& picture, Results& results)
         // What is brighter than white in front of the background has no code.
         const bool white = !whole && file->at(x, y, c) == fullRgba && found < color->at(x, y, c);
         const double apart = white ? 0 : found - color->at(x, y, c);
-        if (!whole && std::abs(apart) > levels && samples.at(x, y).isDoubtful(0))
+        if (std::abs(apart) > levels && samples.at(x, y).isDoubtful(0))
         {
           meter.skip(); // what is drawn and what is traced may differ by a sample at an edge
           continue;
