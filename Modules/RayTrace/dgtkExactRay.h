@@ -69,6 +69,7 @@ struct SeenTriangle
   {
     constexpr double rounding = 0x1p-49; // of a volume, parts of the product of its sides
     const double limit = rounding * rounding * ray.direction.squaredNorm();
+    int along = 0; // edges that the ray meets but for a rounding
     for (int i = 0; i < 3; ++i)
     {
       const int j = (i + 1) % 3;
@@ -80,9 +81,14 @@ struct SeenTriangle
         this->sides += this->volume[i] > 0 ? 1 : -1;
         continue;
       }
+      ++along;
       const int side = exactSide(ray.direction, origin.x[j], origin.x[k]);
       this->sides += side;
       this->volume[i] = side * this->volume[i] > 0 ? this->volume[i] : 0;
+    }
+    if (along == 3) // seen from its edge, it has no area
+    {
+      this->sides = 0;
     }
   }
   const TriangleFrom& from;

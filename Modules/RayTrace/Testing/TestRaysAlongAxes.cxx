@@ -173,6 +173,38 @@ TEST(RaysAlongAxes, APoleIsNoHole)
   }
 }
 
+TEST(RaysAlongAxes, ASurfaceSeenFromItsEdgeHidesNothing)
+{
+  std::mt19937 random(1);
+  const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+  QuadOptions floor;
+  floor.corner = { -3.5, 0.5, 60 };
+  floor.sideU = { 7, 0, 0 };
+  floor.sideV = { 0, 0, -120 };
+  floor.cellsU = floor.cellsV = 2;
+  const auto query = makeOcclusionQuery();
+  const auto state = SceneBuilder().add(makeQuad(floor)).state();
+  query->setScene(state);
+  int hidden = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    ViewOptions options;
+    options.eye = { number(), 0.5, -6 };
+    options.lookAt = { number(), number(), 0 };
+    const View view = makeView(options);
+    const std::uint32_t triangle = std::uint32_t(i) % 8;
+    Eigen::Vector3d x[3];
+    triangleInWorld(*state, { 1, triangle }, x);
+    for (int k = 0; k < 20; ++k)
+    {
+      const double u = 0.5 + 0.5 * number();
+      const double v = (0.5 + 0.5 * number()) * (1 - u);
+      hidden += query->occluder(view, x[0] + u * (x[1] - x[0]) + v * (x[2] - x[0]), { 1, triangle }).object != 0;
+    }
+  }
+  EXPECT_EQ(hidden, 0);
+}
+
 TEST(ExactSide, IsThatOfWholeNumbers)
 {
   std::mt19937_64 random(1);
