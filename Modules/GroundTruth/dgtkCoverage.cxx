@@ -2,21 +2,21 @@
 #include "dgtkCoverage.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace dgtk
 {
 
 SampleCount nearestCoverage(const std::uint32_t* ids, const double* depths, int samples)
 {
-  int nearest = 0;
-  for (int i = 1; i < samples; ++i)
+  constexpr double sameDepth = 1e-9; // a part of it, as for surfaces along one ray
+  const double limit = *std::min_element(depths, depths + samples) * (1 + sameDepth);
+  std::uint32_t nearest = std::numeric_limits<std::uint32_t>::max();
+  for (int i = 0; i < samples; ++i)
   {
-    if (depths[i] < depths[nearest] || (depths[i] == depths[nearest] && ids[i] < ids[nearest]))
-    {
-      nearest = i;
-    }
+    nearest = depths[i] <= limit ? std::min(nearest, ids[i]) : nearest;
   }
-  return { ids[nearest], static_cast<std::uint32_t>(std::count(ids, ids + samples, ids[nearest])) };
+  return { nearest, static_cast<std::uint32_t>(std::count(ids, ids + samples, nearest)) };
 }
 
 void rankCoverages(const std::uint32_t* ids, int samples, std::vector<SampleCount>& coverages)

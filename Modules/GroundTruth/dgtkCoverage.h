@@ -19,8 +19,8 @@ struct SampleCount
 };
 
 /// Section 4.7 of the thesis: the object at the smallest depth among a pixel's `samples` samples, and how many of them
-/// show it; count / samples is its coverage (equation 4.11). Depth +inf: background, id 0. At equal depths the lowest
-/// id.
+/// show it; count / samples is its coverage (equation 4.11). Depth +inf: background, id 0. Of depths that
+/// differ by less than 1e-9 of them the lowest id.
 DGTKGROUNDTRUTH_EXPORT SampleCount nearestCoverage(const std::uint32_t* ids, const double* depths, int samples);
 
 /// The counts of all ids among `samples` samples, background included, the largest first, equal ones by id. They sum

@@ -44,6 +44,10 @@ TEST(Alpha, EquallyNearObjectsAreDecidedByTheirIdNotByTheirOrder)
   const std::uint32_t other[3] = { 4, 5, 4 };
   EXPECT_EQ(nearestCoverage(one, depths, 3), (SampleCount{ 4, 2 }));
   EXPECT_EQ(nearestCoverage(other, depths, 3), (SampleCount{ 4, 2 }));
+  const double rounded[3] = { 2, 2 * (1 + 1e-15), 3 }; // of a floor, whose rows have one depth each
+  EXPECT_EQ(nearestCoverage(one, rounded, 3), (SampleCount{ 4, 2 }));
+  const double apart[3] = { 2, 2 * (1 + 1e-8), 3 };
+  EXPECT_EQ(nearestCoverage(one, apart, 3), (SampleCount{ 5, 1 }));
 }
 
 TEST(Coverage, Equation411OfTheExample)

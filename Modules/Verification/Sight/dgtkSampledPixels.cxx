@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampledPixels.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <set>
 
 namespace dgtk
@@ -47,6 +49,7 @@ const SampledPixel& Samples::at(int x, int y) const
 SampledPixel Samples::count(int x, int y) const
 {
   SampledPixel pixel;
+  std::map<std::uint32_t, double> depths; // the smallest of each object
   double least = infinite;
   for (int j = 0; j < this->Side; ++j)
   {
@@ -55,11 +58,8 @@ SampledPixel Samples::count(int x, int y) const
       const Eigen::Vector2d place(x + (i + 0.5) / this->Side, y + (j + 0.5) / this->Side);
       const First first = this->firstAt(x, y, place);
       ++pixel.counts[first.id];
-      if (first.depth < least || (first.depth == least && first.id < pixel.nearest))
-      {
-        least = first.depth;
-        pixel.nearest = first.id;
-      }
+      least = std::min(least, first.depth);
+      depths[first.id] = std::min(depths.emplace(first.id, first.depth).first->second, first.depth);
       std::set<std::uint32_t> around;
       for (const Eigen::Vector2d& offset :
         { Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1) })
@@ -75,6 +75,10 @@ SampledPixel Samples::count(int x, int y) const
       }
     }
   }
+  pixel.nearest = std::find_if(depths.begin(), depths.end(),
+    [&](const auto& object) {
+      return object.second <= least * (1 + wideDepthTolerance);
+    })->first;
   return pixel;
 }
 
