@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -86,14 +87,25 @@ struct SeenTriangle
       this->sides += side;
       this->volume[i] = side * this->volume[i] > 0 ? this->volume[i] : 0;
     }
-    if (along == 3) // seen from its edge, it has no area
+    if (along == 3 && this->isEdgeOn(ray.direction, rounding))
     {
-      this->sides = 0;
+      this->sides = 0; // it has no area
     }
   }
   const TriangleFrom& from;
   double volume[3]; ///< six times that of the ray's direction and the edge opposite of a corner
   int sides = 0;    ///< of the edges on which the ray passes, summed: 3 or -3 inside
+
+private:
+  /// Whether the triangle leans to the ray by no more than the rounding of its corners.
+  bool isEdgeOn(const Eigen::Vector3d& direction, double rounding) const
+  {
+    const double lean =
+      exact::cross(this->from.x[1] - this->from.x[0], this->from.x[2] - this->from.x[0]).dot(direction);
+    const double size = *std::max_element(this->from.edge, this->from.edge + 3);
+    const double distance = *std::max_element(this->from.square, this->from.square + 3);
+    return lean * lean <= rounding * rounding * size * distance * direction.squaredNorm();
+  }
 };
 
 inline ExactHit intersectExactly(const ExactRay& ray, const SeenTriangle& seen)

@@ -205,6 +205,27 @@ TEST(RaysAlongAxes, ASurfaceSeenFromItsEdgeHidesNothing)
   EXPECT_EQ(hidden, 0);
 }
 
+TEST(ExactSide, SmallTrianglesFarAwayAreThere)
+{
+  for (const double distance : { 1e3, 1e6, 1e8 })
+  {
+    int met = 0;
+    for (int i = 0; i < 32; ++i)
+    {
+      // A grid of cells of 1 / 256, a ray through the middle of one of the triangles.
+      const Eigen::Vector3d at(i, 7 - i, distance);
+      constexpr double cell = 1.0 / 256;
+      const Eigen::Vector3d corners[3] = { at, at + Eigen::Vector3d(cell, 0, 0), at + Eigen::Vector3d(0, cell, 0) };
+      const ExactRay ray{ { 0, 0, 0 }, (at + Eigen::Vector3d(cell, cell, 0) / 4) / distance, 0.1, 1e9 };
+      const TriangleFrom from(ray.origin, corners);
+      const ExactHit hit = intersectExactly(ray, SeenTriangle(ray, from));
+      met += hit.inside;
+      EXPECT_TRUE(!hit.inside || std::abs(hit.t - distance) <= 1e-9 * distance) << distance;
+    }
+    EXPECT_EQ(met, 32) << distance;
+  }
+}
+
 TEST(ExactSide, IsThatOfWholeNumbers)
 {
   std::mt19937_64 random(1);
