@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 
 namespace dgtk
 {
@@ -153,8 +154,11 @@ struct Pair
   std::string text = {}; ///< as the request names it
 };
 
-/// "A:B", "A:B+1", "A:B-2". Names hold no colons, but maybe signs: a camera of the whole name comes first. No number
-/// begins with 0, so that no two texts mean one folder.
+/// "+1", "-2", "".
+std::string stepText(int offset) { return offset == 0 ? "" : (offset > 0 ? "+" : "") + std::to_string(offset); }
+
+/// "A:B", "A:B+1", "A:B-2". Names hold no colons, but maybe signs: a camera of the whole name comes first, also of the
+/// number without needless zeros, which is how its folder is called.
 bool parsePair(const std::vector<std::string>& names, Pair& pair)
 {
   const auto find = [&](const std::string& name, std::size_t& camera)
@@ -174,12 +178,16 @@ bool parsePair(const std::vector<std::string>& names, Pair& pair)
   }
   const std::size_t sign = other.find_last_of("+-");
   const std::string step = sign == std::string::npos ? "" : other.substr(sign);
-  if (step.size() < 2 || step.size() > 7 || step[1] == '0' ||
-      step.find_first_not_of("0123456789", 1) != std::string::npos)
+  if (step.size() < 2 || step.size() > 7 || step.find_first_not_of("0123456789", 1) != std::string::npos)
   {
     return false;
   }
-  pair.offset = std::stoi(step);
+  const int offset = std::stoi(step);
+  if (find(other.substr(0, sign) + stepText(offset), pair.to))
+  {
+    return true;
+  }
+  pair.offset = offset;
   return find(other.substr(0, sign), pair.to);
 }
 
@@ -210,11 +218,11 @@ std::vector<Pair> pairsOf(
     }
     return pairs;
   }
-  std::set<std::string> known;
+  std::set<std::tuple<std::size_t, std::size_t, int>> known;
   const std::string start = own ? names[*own] + ':' : std::string();
   for (const std::string& text : texts)
   {
-    if (text.compare(0, start.size(), start) != 0 || !known.insert(text).second)
+    if (text.compare(0, start.size(), start) != 0)
     {
       continue;
     }
@@ -233,7 +241,10 @@ std::vector<Pair> pairsOf(
     {
       throw UsageError("pairs: camera " + quoted(names[pair.from]) + " is not among those of the run");
     }
-    pairs.push_back(pair);
+    if (known.emplace(pair.from, pair.to, pair.offset).second)
+    {
+      pairs.push_back(pair);
+    }
   }
   return pairs;
 }
@@ -280,11 +291,7 @@ protected:
       PairTarget target;
       target.camera = pair.to;
       target.frame = frame;
-      target.folder = "correspondence_" + names[pair.to];
-      if (pair.offset != 0)
-      {
-        target.folder += (pair.offset > 0 ? "+" : "") + std::to_string(pair.offset);
-      }
+      target.folder = "correspondence_" + names[pair.to] + stepText(pair.offset);
       all.push_back(target);
     }
     return all;
