@@ -35,7 +35,7 @@ PacketTracer::PacketTracer(const RayScene& scene, const View& view, bool coheren
     const bool perspective = view.model->linear()->perspective;
     this->VaryingX = perspective ? ray.dir_x : ray.org_x;
     this->VaryingY = perspective ? ray.dir_y : ray.org_y;
-    this->Least = perspective ? 0x1p-24 : 0;
+    this->Least = perspective ? halfRounding : 0;
     const auto at = [&](double x, double y)
     {
       const CameraRay r = view.model->rayThrough({ x, y });

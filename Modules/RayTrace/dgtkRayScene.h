@@ -135,16 +135,18 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
 void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles* triangles,
   std::vector<Hit>& found, std::vector<RayHit>& hits);
 
+/// Half a rounding of single precision, a part of a value.
+constexpr double halfRounding = 0x1p-24;
+
 /// A vector, or a matrix by its columns, whose components below half a rounding of the largest are 0. Embree's bounds
 /// of coherent packets lose surfaces where a ray has a component between -1e-18 and 0 in the axes of an instance (it
 /// sorts the ray among negative ones and divides by a positive number); products of two roundings are such components.
 template <typename Vectors>
 Vectors withoutRoundings(Vectors vectors)
 {
-  constexpr double least = 0x1p-24;
   for (Eigen::Index i = 0; i < vectors.cols(); ++i)
   {
-    const double limit = least * vectors.col(i).cwiseAbs().maxCoeff();
+    const double limit = halfRounding * vectors.col(i).cwiseAbs().maxCoeff();
     vectors.col(i) = vectors.col(i).unaryExpr([limit](double v) { return std::abs(v) < limit ? 0 : v; }).eval();
   }
   return vectors;

@@ -15,6 +15,20 @@ using namespace dgtk;
 using namespace dgtk::test;
 using testing::HasSubstr;
 
+namespace
+{
+CameraRecord smallCamera(const std::string& model)
+{
+  CameraRecord camera;
+  camera.name = "c";
+  camera.width = camera.height = 8;
+  camera.model = model;
+  camera.near = 1;
+  camera.far = 100;
+  return camera;
+}
+} // namespace
+
 TEST(Cameras, RoundTripIsExactAndSorted)
 {
   const TemporaryFolder folder;
@@ -53,15 +67,10 @@ TEST(Cameras, RoundTripIsExactAndSorted)
 TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
 {
   const TemporaryFolder folder;
-  CameraRecord camera;
-  camera.name = "c";
-  camera.width = camera.height = 8;
-  camera.model = "raytable";
+  CameraRecord camera = smallCamera("raytable");
   camera.hasK = false;
   camera.numbers["shift"] = { 1, 2 };
   camera.files["rays"] = "inputs/rays.npy";
-  camera.near = 0.5;
-  camera.far = 1;
   const std::string text = camerasText({ camera });
   EXPECT_EQ(text.find("\"K\""), std::string::npos);
   EXPECT_THAT(
@@ -81,12 +90,7 @@ TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
 TEST(Cameras, WhatCannotSeeIsRefused)
 {
   const TemporaryFolder folder;
-  CameraRecord camera;
-  camera.name = "c";
-  camera.width = camera.height = 8;
-  camera.model = "pinhole";
-  camera.near = 1;
-  camera.far = 100;
+  const CameraRecord camera = smallCamera("pinhole");
   const auto refused = [&](const CameraRecord& wrong)
   {
     writeFile(folder.path("cameras.json"), camerasText({ wrong }));

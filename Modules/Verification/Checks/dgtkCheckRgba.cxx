@@ -76,12 +76,11 @@ void checkRgba(Picture& picture, Results& results)
     [&](int x, int y, Meter& meter)
     {
       const double alpha = file->at(x, y, 3) / fullRgba;
-      const bool whole = alpha == 0 || alpha == 1;
       for (int c = 0; c < 3; ++c)
       {
         const double found = alpha * file->at(x, y, c) + (1 - alpha) * (*background)[c];
         // What is brighter than white in front of the background has no code.
-        const bool white = !whole && file->at(x, y, c) == fullRgba && found < color->at(x, y, c);
+        const bool white = alpha > 0 && file->at(x, y, c) == fullRgba && found < color->at(x, y, c);
         const double apart = white ? 0 : found - color->at(x, y, c);
         if (std::abs(apart) > levels && samples.at(x, y).isDoubtful(0))
         {
