@@ -115,8 +115,8 @@ std::string shapeOf(const ImageInfo& info)
 
 void comparePixels(const std::string& a, const std::string& b, CompareResult& result)
 {
-  const std::unique_ptr<RowReader> left = openLayerFile(a);
-  const std::unique_ptr<RowReader> right = openLayerFile(b);
+  const std::unique_ptr<RowReader> left = openLayerTable(a);
+  const std::unique_ptr<RowReader> right = openLayerTable(b);
   const ImageInfo& one = left->info();
   const ImageInfo& other = right->info();
   if (one.width != other.width || one.height != other.height || one.channels != other.channels)
@@ -124,7 +124,7 @@ void comparePixels(const std::string& a, const std::string& b, CompareResult& re
     result.problem = shapeOf(one) + " against " + shapeOf(other);
     return;
   }
-  const std::size_t rowBytes = std::size_t(one.pixelBytes() / std::uint64_t(one.height));
+  const std::size_t rowBytes = std::size_t(one.pixelBytes() / std::uint64_t(std::max(one.height, 1)));
   const int rows = static_cast<int>(std::max<std::size_t>(1, blockBytes / std::max<std::size_t>(1, rowBytes)));
   for (int y = 0; y < one.height; y += rows)
   {
@@ -285,7 +285,7 @@ CompareResult compareFiles(const std::string& a, const std::string& b, const std
   const bool images = isLayerFile(a) && isLayerFile(b) && !isDeepExr(a) && !isDeepExr(b);
   if (images && result.sameBytes)
   {
-    const std::unique_ptr<RowReader> reader = openLayerFile(a);
+    const std::unique_ptr<RowReader> reader = openLayerTable(a);
     result.pixels = std::uint64_t(reader->info().width) * static_cast<std::uint64_t>(reader->info().height);
   }
   else if (images)

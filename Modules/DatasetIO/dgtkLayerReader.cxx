@@ -114,6 +114,16 @@ bool isLayerFile(const std::string& path)
 
 std::unique_ptr<RowReader> openLayerFile(const std::string& path, DepthMatrices* matrices)
 {
+  std::unique_ptr<RowReader> reader = openLayerTable(path, matrices);
+  if (reader->info().height == 0)
+  {
+    throw InputError(path, 0, "is an image without rows");
+  }
+  return reader;
+}
+
+std::unique_ptr<RowReader> openLayerTable(const std::string& path, DepthMatrices* matrices)
+{
   const std::string extension = extensionOf(path);
   if (extension == "png")
   {

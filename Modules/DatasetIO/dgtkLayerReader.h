@@ -63,6 +63,10 @@ private:
 DGTKDATASETIO_EXPORT std::unique_ptr<RowReader> openLayerFile(
   const std::string& path, DepthMatrices* matrices = nullptr);
 
+/// The same of what may be a table: a .npy file may have no rows, as that of tracks where none begins.
+DGTKDATASETIO_EXPORT std::unique_ptr<RowReader> openLayerTable(
+  const std::string& path, DepthMatrices* matrices = nullptr);
+
 /// Whether openLayerFile() knows the extension of `path`.
 DGTKDATASETIO_EXPORT bool isLayerFile(const std::string& path);
 

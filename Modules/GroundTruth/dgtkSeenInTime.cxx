@@ -15,6 +15,7 @@ constexpr int mostPlainSteps = 60;
 constexpr int coarseSteps = 64;
 constexpr int mostHalvings = 60;
 constexpr double settled = 1e-12; ///< of the shutter's duration
+constexpr double jump = 1e-6;     ///< likewise; halving leaves less of what has no gap
 
 class PointInTime
 {
@@ -91,7 +92,8 @@ bool bisects(PointInTime& point, const TimeSpan& times, double most)
       }
       (late > 0 ? low : high) = middle;
     }
-    if (between)
+    // The sign also changes where a point jumps, and is seen at no time.
+    if (between && std::abs(point.lateness(high)) <= jump * (times.last - times.first))
     {
       return true;
     }

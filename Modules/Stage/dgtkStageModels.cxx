@@ -275,6 +275,11 @@ void StageModels::addTextures()
     for (std::size_t k = 0; k < file.pictures.size(); ++k)
     {
       this->Textures[{ file.model.get(), file.pictures[k] }] = static_cast<int>(file.ownTextures + k);
+      if (file.model->uvs.empty() && file.model->textures[file.ownTextures + k].image)
+      {
+        this->warn(this->Scene.title() + ": texture " + quoted(file.pictures[k]) + ": " + file.model->path +
+                   " has no texture coordinates");
+      }
     }
   }
 }
@@ -295,12 +300,12 @@ std::shared_ptr<const Model> StageModels::withPictures(const ReadFiles::File& fi
   copy->textures.resize(file.ownTextures);
   for (const std::string& written : file.pictures)
   {
-    copy->textures.push_back(this->makeTexture(*copy, written));
+    copy->textures.push_back(this->makeTexture(written));
   }
   return copy;
 }
 
-Texture StageModels::makeTexture(const Model& model, const std::string& written)
+Texture StageModels::makeTexture(const std::string& written)
 {
   Texture texture;
   texture.name = written;
@@ -328,11 +333,6 @@ Texture StageModels::makeTexture(const Model& model, const std::string& written)
   if (!texture.image)
   {
     this->warn(this->Scene.title() + ": texture " + quoted(written) + ": " + problem);
-  }
-  else if (model.uvs.empty())
-  {
-    this->warn(
-      this->Scene.title() + ": texture " + quoted(written) + ": " + model.path + " has no texture coordinates");
   }
   return texture;
 }

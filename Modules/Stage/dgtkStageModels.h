@@ -65,7 +65,7 @@ private:
   void addTextures();
   bool hasPictures(const std::string& place, const ReadFiles::File& file) const;
   std::shared_ptr<const Model> withPictures(const ReadFiles::File& file);
-  Texture makeTexture(const Model& model, const std::string& written);
+  Texture makeTexture(const std::string& written);
   MaterialList makeMaterials(std::size_t object) const;
   void applySkin(const ObjectDescription& object, const Model& model, std::vector<Material>& materials) const;
   void applyOverride(const ObjectDescription& object, const Model& model, const MaterialOverride& change,

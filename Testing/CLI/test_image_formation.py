@@ -344,6 +344,18 @@ class ImageFormation(harness.Case):
         color, rgba = (self.read(os.path.join(out, "c", layer, "000000.png")) for layer in ("color", "color_rgba"))
         self.assertTrue(((rgba[..., 3] > 0) != (color != color[0, 0]).any(-1)).any(), "what is drawn differs at some edge")
         self.dgtk("verify", out)
+        # Where a lens has no ray the picture is black, and what it shows beside that has the colours of the picture.
+        scene.update(background=[0.3, 0.5, 0.8])
+        scene["objects"][0].update(model="disc.obj", position=[-8, 0, 3], scale=8)
+        scene["cameras"][0].update(model="fisheye", K=[[20, 0, 24], [0, 20, 18], [0, 0, 1]], distortion=[-0.3, 0, 0, 0])
+        out = self.render(scene, "--samples", 3, layers="color,color_rgba", name="circle")
+        color, rgba = (self.read(os.path.join(out, "c", layer, "000000.png")).astype(float) for layer in ("color", "color_rgba"))
+        self.assertEqual(rgba[0, 0].tolist() + color[0, 0].tolist(), [0] * 7)
+        self.assertTrue(((rgba[..., 3] == 0) & (color.sum(-1) > 0)).any(), "background in the circle")
+        circle = (rgba[..., 3] > 0) & (rgba[..., 3] < 255) & (np.arange(48) < 20)
+        self.assertGreater(circle.sum(), 5)
+        self.assertLessEqual(np.abs(rgba[circle][:, :3] * rgba[circle][:, 3:] / 255 - color[circle]).max(), 2)
+        self.dgtk("verify", out)
         said = self.refused("render", self.path("scene.json"), "-o", self.path("no"), "--layers", "color_rgba", "--samples", 2,
                             "--filter", "gaussian", status=2, says="color_rgba")
         self.assertIn("filter box", said)

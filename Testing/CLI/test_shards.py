@@ -77,6 +77,26 @@ class Shards(Case):
         self.dgtk("merge", self.path("parts"))
         self.assert_same_files(self.path("whole"), self.path("parts"))
 
+    def test_warnings_and_inputs(self):
+        """Each part has the warnings of the whole; a picture that a model and the scene name is one input."""
+        self.write("quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        os.mkdir(self.path("models"))
+        self.write("models/seen.obj", "mtllib seen.mtl\nusemtl m\nv 0 0 1\nv 1 0 1\nv 0 1 1\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+        self.write("models/seen.mtl", "newmtl m\nmap_Kd ../grey.pgm\n")
+        self.write("grey.pgm", "P2\n1 1\n255\n99\n")
+        self.write("scene.json", json.dumps(
+            {"objects": [{"model": "models/seen.obj"}, {"model": "quad.obj", "materials": {"*": {"texture": "grey.pgm"}}}],
+             "keyFrames": [0, 3], "cameras": [{"name": "c", "eye": [0, 0, 6], "lookAt": [0, 0, 0]}]}))
+        options = ("--layers", "color", "--size", "16x12", "--quiet")
+        self.dgtk("render", self.path("scene.json"), "-o", self.path("whole"), *options)
+        self.shard(self.path("scene.json"), self.path("parts"), 0, 1, options)
+        self.dgtk("merge", self.path("parts"))
+        self.assert_same_files(self.path("whole"), self.path("parts"))
+        manifest = load_json(self.path("parts", "manifest.json"))
+        self.assertIn("no texture coordinates", *manifest["warnings"])
+        self.assertEqual([entry["path"] for entry in manifest["inputs"]].count("../grey.pgm"), 1)
+        self.dgtk("verify", self.path("parts"))
+
     def test_a_damaged_part_is_missing(self):
         options = ("--layers", "depth", "--size", "32x24", "--quiet")
         self.dgtk("render", DEMO, "-o", self.path("whole"), *options)

@@ -203,7 +203,7 @@ void npyShape(const InputFile& file, HeaderText& text, ImageInfo& info)
   {
     file.fail(at, "not the shape of an image", "(H, W) or (H, W, C)");
   }
-  checkImageSize(file, at, sides[1], sides[0]);
+  checkImageSize(file, at, sides[1], sides[0] == 0 ? 1 : sides[0]); // tables may be empty
   info.height = static_cast<int>(sides[0]);
   info.width = static_cast<int>(sides[1]);
   info.channels = static_cast<int>(sides[2]);

@@ -58,6 +58,24 @@ TEST(Compare, CountsAndPlacesDifferences)
   EXPECT_THAT(compareJson(result), HasSubstr("\"largest\": 4.0,\n  \"first\": [2, 0],\n  \"worst\": [1, 1]\n}"));
 }
 
+TEST(Compare, TablesMayHaveNoRows)
+{
+  const TemporaryFolder folder;
+  const std::string shape = "{'descr': '<f8', 'fortran_order': False, 'shape': (0, 3), }\n";
+  for (const char* const name : { "none.npy", "empty.npy" })
+  {
+    writeFile(folder.path(name), std::string("\x93NUMPY\x01\0", 8) + char(shape.size()) + '\0' + shape);
+  }
+  writeValues(folder.path("one.npy"), { 1, 2, 3 }, 3);
+  const CompareResult same = compareFiles(folder.path("none.npy"), folder.path("empty.npy"));
+  EXPECT_TRUE(same.equal);
+  EXPECT_EQ(same.pixels, 0u);
+  const CompareResult other = compareFiles(folder.path("none.npy"), folder.path("one.npy"));
+  EXPECT_FALSE(other.equal);
+  EXPECT_EQ(other.problem, "3 x 0 pixels of 1 x float64 against 3 x 1 pixels of 1 x float64");
+  EXPECT_THROW(openLayerFile(folder.path("none.npy")), InputError) << "no image";
+}
+
 TEST(Compare, InvalidAgainstValidIsInfinite)
 {
   const TemporaryFolder folder;

@@ -143,6 +143,10 @@ TEST(LyingHeaders, AreRefusedWithTheirOffset)
     HasSubstr("(expected 'False'"));
   EXPECT_THAT(messageOf("x.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (7,), }\n1")),
     HasSubstr("not the shape of an image"));
+  EXPECT_THAT(messageOf("x.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (-1, 3), }\n1")),
+    HasSubstr("unusable image size"));
+  EXPECT_THAT(messageOf("x.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (0, 3), }\n")),
+    HasSubstr("without rows"));
   EXPECT_THAT(messageOf("x.flo", "PIEHxxxxyyyy"), HasSubstr("unusable image size"));
   EXPECT_THAT(messageOf("x.dgd", std::string(264, '\0')), HasSubstr("offset 256: unusable image size"));
   EXPECT_THAT(messageOf("x.dgd", "short"), HasSubstr("offset 5: ends too early"));

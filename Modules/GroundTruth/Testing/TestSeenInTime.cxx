@@ -115,6 +115,11 @@ TEST(SeenInTime, IsWhenItsPlaceInTheImageIsSeen)
     { "comes after that", always(0.51), within(0.52, 1), never },
     { "is there from that time on", always(0.5), within(0.5, 1), 0.5 },
     { "is there at the first time alone", always(-1), within(-1, -0.99), -1 },
+    { "jumps past its time", [](double t) { return t < 0.1 ? 0.5 : -0.5; }, always(1), never },
+    { "jumps past its time, and is seen later", [](double t) { return t < -0.5  ? 0
+                                                                      : t < 0.3 ? -0.8
+                                                                                : 0.6; }, always(1),
+      0.6 },
     { "is there at the last time alone", always(1), within(0.99, 1), 1 },
   };
   for (const double frame : { 0.0, 10.0, 999999.0 })

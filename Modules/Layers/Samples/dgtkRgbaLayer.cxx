@@ -37,13 +37,14 @@ std::vector<int> covered(const SampledRows& samples)
   return counts;
 }
 
-/// In display values, which are what the picture's samples are averaged in.
-void writePixel(const Eigen::Vector3d& rgb, const Eigen::Vector3d& background, double share, std::uint8_t* out)
+/// In display values, which are what the picture's samples are averaged in. `behind`: what the samples show of the
+/// background; those without a ray are black.
+void writePixel(const Eigen::Vector3d& rgb, const Eigen::Vector3d& behind, double share, std::uint8_t* out)
 {
   constexpr double top = 255;
   for (int c = 0; c < 3; ++c)
   {
-    const double color = share > 0 ? (rgb[c] - (1 - share) * background[c]) / share : 0;
+    const double color = share > 0 ? (rgb[c] - behind[c]) / share : 0;
     out[c] = static_cast<std::uint8_t>(std::lround(top * std::min(std::max(color, 0.0), 1.0)));
   }
   out[3] = static_cast<std::uint8_t>(std::lround(top * share));
@@ -75,9 +76,13 @@ public:
       std::uint8_t* out = rows.row<std::uint8_t>(rect.y);
       for (std::size_t i = 0; i < counts.size(); ++i)
       {
-        const double share = double(counts[i]) / this->Samples.samples;
+        const double all = this->Samples.samples;
+        const double share = counts[i] / all;
+        const bool mixed = counts[i] > 0 && counts[i] < this->Samples.samples;
+        const int dark =
+          mixed ? this->Sampler.withoutRay(rect.x + int(i) % rect.width, rect.y + int(i) / rect.width) : 0;
         const Eigen::Vector3d color = Eigen::Map<const Eigen::Vector3f>(&band.rgb[3 * (first + i)]).cast<double>();
-        writePixel(this->curved(color), this->Background, share, out + 4 * i);
+        writePixel(this->curved(color), (1 - share - dark / all) * this->Background, share, out + 4 * i);
       }
       sink.rows(0, rows);
     }

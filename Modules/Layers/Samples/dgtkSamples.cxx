@@ -69,6 +69,14 @@ void PixelSampler::sample(const PixelRect& rect, const Hit* own, SampledRows& ro
   }
 }
 
+int PixelSampler::withoutRay(int x, int y) const
+{
+  return static_cast<int>(std::count_if(this->Views.begin(), this->Views.end(),
+    [&](const View& view) {
+      return !view.model->rayThrough({ x + 0.5, y + 0.5 }).exists();
+    }));
+}
+
 void PixelSampler::trace(SampledRows& rows, const Hit* own)
 {
   rows.hits.resize(this->Views.size());

@@ -52,6 +52,8 @@ public:
   int stripRows() const;
   /// `own`: hits of the pixels of `rect`.
   void sample(const PixelRect& rect, const Hit* own, SampledRows& rows);
+  /// How many samples of a pixel have no ray, beyond what a lens sees.
+  int withoutRay(int x, int y) const;
 
 private:
   void trace(SampledRows& rows, const Hit* own);

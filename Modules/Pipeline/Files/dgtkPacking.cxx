@@ -239,12 +239,16 @@ std::vector<InputRecord> recordedInputs(
   const Stage& stage, const std::string& folder, const Packing* packing, RunSession& session)
 {
   std::vector<InputRecord> inputs = inputsOf(stage, folder, session);
-  if (packing == nullptr)
+  if (packing == nullptr) // a file may have two spellings, here and below
   {
+    std::set<std::string> listed;
+    inputs.erase(std::remove_if(inputs.begin(), inputs.end(),
+                   [&](const InputRecord& input) { return !listed.insert(input.path).second; }),
+      inputs.end());
     return inputs;
   }
   const std::vector<std::string> files = stage.inputFiles();
-  std::map<std::string, InputRecord> copies; // a file may have two spellings
+  std::map<std::string, InputRecord> copies;
   for (std::size_t i = 0; i < files.size(); ++i)
   {
     const std::string& to = packing->copies.at(files[i]);

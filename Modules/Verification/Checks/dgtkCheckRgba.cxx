@@ -27,14 +27,14 @@ void checkShare(const PictureFile& file, const Samples& samples, int x, int y, M
     [&](double expected) { return file.offender(x, y, "alpha " + numberText(1 - share), numberText(1 - expected)); });
 }
 
-/// The colour of the background: that of a pixel which nothing covers.
-std::optional<Eigen::Vector3d> backgroundOf(const PictureFile& file, const PictureFile& color)
+/// The colour of the background: that of a pixel which nothing covers, and whose samples all have a ray.
+std::optional<Eigen::Vector3d> backgroundOf(const PictureFile& file, const PictureFile& color, const Samples& samples)
 {
   for (int y = 0; y < file.height(); ++y)
   {
     for (int x = 0; x < file.width(); ++x)
     {
-      if (file.at(x, y, 3) == 0)
+      if (file.at(x, y, 3) == 0 && samples.withoutRay(x, y) == 0)
       {
         return Eigen::Vector3d(color.at(x, y, 0), color.at(x, y, 1), color.at(x, y, 2));
       }
@@ -67,7 +67,7 @@ void checkRgba(Picture& picture, Results& results)
     [&](int x, int y, Meter& meter) { checkShare(*file, samples, x, y, meter); });
   const PicturePointer color = picture.image("color", { ".png" });
   const std::optional<Eigen::Vector3d> background =
-    color && color->type() == PixelType::UInt8 ? backgroundOf(*file, *color) : std::nullopt;
+    color && color->type() == PixelType::UInt8 ? backgroundOf(*file, *color, samples) : std::nullopt;
   if (!background)
   {
     return;
@@ -76,9 +76,11 @@ void checkRgba(Picture& picture, Results& results)
     [&](int x, int y, Meter& meter)
     {
       const double alpha = file->at(x, y, 3) / fullRgba;
+      // The picture is black where there is no ray.
+      const double black = alpha < 1 ? samples.withoutRay(x, y) / double(samples.all()) : 0;
       for (int c = 0; c < 3; ++c)
       {
-        const double found = alpha * file->at(x, y, c) + (1 - alpha) * (*background)[c];
+        const double found = alpha * file->at(x, y, c) + std::max(0.0, 1 - alpha - black) * (*background)[c];
         // What is brighter than white in front of the background has no code.
         const bool white = alpha > 0 && file->at(x, y, c) == fullRgba && found < color->at(x, y, c);
         const double apart = white ? 0 : found - color->at(x, y, c);

@@ -46,6 +46,16 @@ const SampledPixel& Samples::at(int x, int y) const
   return *known;
 }
 
+int Samples::withoutRay(int x, int y) const
+{
+  int number = 0;
+  for (int k = 0; k < this->all(); ++k)
+  {
+    number += this->Owner.eye().ray(this->placeOf(x, y, k % this->Side, k / this->Side)).exists() ? 0 : 1;
+  }
+  return number;
+}
+
 SampledPixel Samples::count(int x, int y) const
 {
   SampledPixel pixel;
@@ -55,7 +65,7 @@ SampledPixel Samples::count(int x, int y) const
   {
     for (int i = 0; i < this->Side; ++i)
     {
-      const Eigen::Vector2d place(x + (i + 0.5) / this->Side, y + (j + 0.5) / this->Side);
+      const Eigen::Vector2d place = this->placeOf(x, y, i, j);
       const First first = this->firstAt(x, y, place);
       ++pixel.counts[first.id];
       least = std::min(least, first.depth);

@@ -34,6 +34,8 @@ public:
   /// Samples of a pixel, all of its rows and columns.
   int all() const { return this->Side * this->Side; }
   const SampledPixel& at(int x, int y) const;
+  /// How many of them have no ray, beyond what a lens sees.
+  int withoutRay(int x, int y) const;
   /// Whether a pixel that is not divided is looked at: one of 16.
   static bool isChosen(int x, int y) { return x % 4 == 0 && y % 4 == 0; }
   /// Measures the share of an object in a pixel; where samples within EdgeReach of an edge explain the difference, it
@@ -59,6 +61,10 @@ private:
     std::uint32_t id = 0;
     double depth = infinite;
   };
+  Eigen::Vector2d placeOf(int x, int y, int i, int j) const
+  {
+    return { x + (i + 0.5) / this->Side, y + (j + 0.5) / this->Side };
+  }
   First firstAt(int x, int y, const Eigen::Vector2d& place) const;
   SampledPixel count(int x, int y) const;
 
