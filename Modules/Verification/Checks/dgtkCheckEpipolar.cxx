@@ -31,13 +31,23 @@ Eigen::Vector3d imageOf(const Eye& first, const Eye& second, const Eigen::Vector
   return second.record().K * (second.pinhole() ? y : Eigen::Vector3d(y.x(), y.y(), w));
 }
 
-/// F x of both calibrations: the line through the epipole and the image of the ray's direction.
-Eigen::Vector3d epipolarLine(const Eye& first, const Eye& second, const Eigen::Vector2d& pixel)
+/// Distance from F x of both calibrations, the line through the epipole and the image of the ray's direction. Measured
+/// from the nearer of these two: where they come close, as of cameras in one place but for a rounding, the line's own
+/// equation has no digits left.
+double epipolarDistance(const Eye& first, const Eye& second, const Eigen::Vector2d& pixel, const Eigen::Vector2d& place)
 {
   const CameraRay ray = first.ray(pixel);
-  return imageOf(first, second, ray.origin, 1)
-    .normalized()
-    .cross(imageOf(first, second, ray.direction, 0).normalized());
+  const Eigen::Vector3d ends[] = { imageOf(first, second, ray.origin, 1).normalized(),
+    imageOf(first, second, ray.direction, 0).normalized() };
+  const Eigen::Vector3d line = ends[0].cross(ends[1]);
+  const Eigen::Vector2d normal = line.head<2>().normalized();
+  Eigen::Vector2d nearest(infinite, infinite);
+  for (const Eigen::Vector3d& end : ends)
+  {
+    const Eigen::Vector2d apart = place - end.hnormalized();
+    nearest = end.z() != 0 && apart.norm() < nearest.norm() ? apart : nearest;
+  }
+  return nearest.allFinite() ? normal.dot(nearest) : line.dot(place.homogeneous()) / line.head<2>().norm();
 }
 
 /// Pixels whose correspondence holds an inside point; only between cameras of one frame, apart from each other.
@@ -202,9 +212,8 @@ void checkEpipolar(Picture& picture, Results& results)
           {
             continue;
           }
-          const Eigen::Vector3d line = epipolarLine(picture.eye(), pair.other->eye(), centreOf(x, y));
           const Eigen::Vector2d p = images.values->at2(x, y);
-          const double distance = line.dot(Eigen::Vector3d(p.x(), p.y(), 1)) / line.head<2>().norm();
+          const double distance = epipolarDistance(picture.eye(), pair.other->eye(), centreOf(x, y), p);
           const Target target = targets.at(x, y);
           row.add(distance / (target.surface ? picture.eye().farness(target.here.z()) : 1),
             [&] { return images.values->offender(x, y, numbersText(p.data(), 2), "a point of the epipolar line"); });

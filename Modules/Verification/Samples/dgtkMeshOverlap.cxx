@@ -53,12 +53,16 @@ Eigen::AlignedBox3d boxOf(const WorldTriangle& t)
   return box.extend(t[1]).extend(t[2]);
 }
 
-/// Calls visit(triangle of a, of b) for pairs whose boxes meet; it says whether to go on.
+/// Calls visit(triangle of a, of b) for pairs whose boxes meet while `a` goes along `way`.
 template <typename Visit>
-void pairs(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& shift, const Visit& visit)
+void pairs(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& way, const Visit& visit)
 {
-  Eigen::AlignedBox3d whole = a.box;
-  whole.translate(shift);
+  const auto swept = [&way](Eigen::AlignedBox3d box)
+  {
+    const Eigen::AlignedBox3d end(box.min() + way, box.max() + way);
+    return box.extend(end);
+  };
+  const Eigen::AlignedBox3d whole = swept(a.box);
   std::vector<WorldTriangle> near;
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const WorldTriangle& t : b.triangles)
@@ -72,20 +76,56 @@ void pairs(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& shift,
   }
   for (const WorldTriangle& t : a.triangles)
   {
-    const WorldTriangle moved = { t[0] + shift, t[1] + shift, t[2] + shift };
-    const Eigen::AlignedBox3d box = boxOf(moved);
+    const Eigen::AlignedBox3d box = swept(boxOf(t));
     if (!box.intersects(b.box))
     {
       continue;
     }
     for (std::size_t i = 0; i < near.size(); ++i)
     {
-      if (box.intersects(boxes[i]) && !visit(moved, near[i]))
+      if (box.intersects(boxes[i]))
       {
-        return;
+        visit(t, near[i]);
       }
     }
   }
+}
+
+/// Rounding of what lies on a border, or touches already; parts of the way and of sides.
+constexpr double touching = 1e-9;
+
+/// The part of the way after which p + u (q - p) + part way = r + v (s - r), where u and v are within the sides, or,
+/// of a triangle's sides from one corner, u + v is below 1 as well. 1 if there is none.
+double partOfWay(const Eigen::Vector3d& u, const Eigen::Vector3d& v, const Eigen::Vector3d& way,
+  const Eigen::Vector3d& apart, bool sum)
+{
+  Eigen::Matrix3d sides;
+  sides << u, v, way;
+  const double size = u.norm() * v.norm() * way.norm();
+  if (!(std::abs(sides.determinant()) > 1e-12 * size))
+  {
+    return 1; // borders alone meet
+  }
+  const Eigen::Vector3d x = sides.inverse() * apart;
+  const bool within = x[0] >= -touching && x[1] >= -touching && x[0] <= 1 + touching && x[1] <= 1 + touching &&
+                      (!sum || x[0] + x[1] <= 1 + touching);
+  return within && x[2] >= -touching ? std::clamp(x[2], 0.0, 1.0) : 1;
+}
+
+/// The part of the way after which one triangle touches the other: a corner a side, or sides each other.
+double partOfWay(const WorldTriangle& a, const WorldTriangle& b, const Eigen::Vector3d& way)
+{
+  double part = 1;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    part = std::min(part, partOfWay(b[0] - b[1], b[0] - b[2], way, b[0] - a[i], true));
+    part = std::min(part, partOfWay(a[1] - a[0], a[2] - a[0], way, b[i] - a[0], true));
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      part = std::min(part, partOfWay(a[(i + 1) % 3] - a[i], b[k] - b[(k + 1) % 3], way, b[k] - a[i], false));
+    }
+  }
+  return part;
 }
 
 /// How deep the origin lies in the convex hull of the differences of the corners: by how much the triangles must be
@@ -246,16 +286,12 @@ void WorldMesh::add(const WorldTriangle& triangle)
   this->box.extend(boxOf(triangle));
 }
 
-bool surfacesCross(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& shift)
+double freeWay(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& way)
 {
-  bool found = false;
-  pairs(a, b, shift,
-    [&](const WorldTriangle& s, const WorldTriangle& t)
-    {
-      found = cross(s, t);
-      return !found;
-    });
-  return found;
+  double part = 1;
+  pairs(
+    a, b, way, [&](const WorldTriangle& s, const WorldTriangle& t) { part = std::min(part, partOfWay(s, t, way)); });
+  return part;
 }
 
 double overlapDepth(const WorldMesh& a, const WorldMesh& b)
@@ -263,10 +299,7 @@ double overlapDepth(const WorldMesh& a, const WorldMesh& b)
   double deepest = 0;
   pairs(a, b, Eigen::Vector3d::Zero(),
     [&](const WorldTriangle& s, const WorldTriangle& t)
-    {
-      deepest = cross(s, t) ? std::max(deepest, depthOfPair(s, t)) : deepest;
-      return true;
-    });
+    { deepest = cross(s, t) ? std::max(deepest, depthOfPair(s, t)) : deepest; });
   return std::max({ deepest, deepestWithin(a, b), deepestWithin(b, a) });
 }
 

@@ -21,8 +21,9 @@ struct WorldMesh
   void add(const WorldTriangle& triangle);
 };
 
-/// Whether surfaces cross, when `a` is moved by `shift`.
-bool surfacesCross(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& shift);
+/// How far `a` can be moved along `way` before a surface of it touches one of `b`, in lengths of `way`; 1 at most.
+/// Surfaces that cross already do not count.
+double freeWay(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& way);
 
 /// The depth of the deepest pair of triangles that cross, and of the deepest vertex of one body within the other.
 double overlapDepth(const WorldMesh& a, const WorldMesh& b);

@@ -6,6 +6,7 @@
 #include "dgtkJsonFile.h"
 #include "dgtkMeshOverlap.h"
 #include "dgtkMeter.h"
+#include "dgtkModel.h"
 #include "dgtkSceneDescription.h"
 #include "dgtkStage.h"
 
@@ -23,36 +24,6 @@ namespace
 using Json = nlohmann::json;
 
 constexpr char recordName[] = "samples.json";
-
-/// The bodies of a scene at its last frame, by the names of the objects that carry the others.
-std::map<std::string, WorldMesh> bodiesOf(const SceneDescription& scene)
-{
-  std::map<std::string, std::string> parents;
-  for (const ObjectDescription& object : scene.objects)
-  {
-    parents[object.name] = object.parent;
-  }
-  std::map<std::string, WorldMesh> bodies;
-  const std::shared_ptr<const Stage> stage = Stage::load(scene);
-  for (const Instance& instance : stage->at(scene.lastFrame())->instances)
-  {
-    std::string root = instance.name;
-    while (!parents[root].empty())
-    {
-      root = parents[root];
-    }
-    for (const auto& t : instance.model->triangles)
-    {
-      WorldTriangle corners;
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        corners[i] = instance.world_from_object * instance.geometry->positions[t[i]];
-      }
-      bodies[root].add(corners);
-    }
-  }
-  return bodies;
-}
 
 /// Objects that were kept, with their tolerance and whether something must hold them.
 struct Claim
@@ -80,6 +51,45 @@ std::vector<Claim> claimsOf(const Json& sample)
       measured.contains("gap") });
   }
   return claims;
+}
+
+/// The bodies of a scene at its first frame, those that were placed where they lie at the last, by the names of the
+/// objects that carry the others. Models have their first shape.
+std::map<std::string, WorldMesh> bodiesOf(const SceneDescription& scene, const std::vector<Claim>& claims)
+{
+  std::map<std::string, std::string> parents;
+  std::map<std::string, Rigid3> moves; // of what has fallen, from the first key frame to the last
+  const int first = scene.firstFrame();
+  for (const ObjectDescription& object : scene.objects)
+  {
+    parents[object.name] = object.parent;
+    const auto at = [&object](int frame) {
+      return Rigid3{ object.orientation.at(frame).matrix(), object.position.at(frame) };
+    };
+    const bool placed =
+      std::any_of(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.object == object.name; });
+    moves[object.name] = placed ? at(scene.lastFrame()) * at(first).inverse() : Rigid3();
+  }
+  std::map<std::string, WorldMesh> bodies;
+  const std::shared_ptr<const Stage> stage = Stage::load(scene);
+  for (const Instance& instance : stage->at(first)->instances)
+  {
+    std::string root = instance.name;
+    while (!parents[root].empty())
+    {
+      root = parents[root];
+    }
+    for (const auto& t : instance.model->triangles)
+    {
+      WorldTriangle corners;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        corners[i] = moves[root] * (instance.world_from_object * instance.model->rest->positions[t[i]]);
+      }
+      bodies[root].add(corners);
+    }
+  }
+  return bodies;
 }
 
 class SampleCheck
@@ -180,7 +190,7 @@ private:
       return;
     }
     const SceneDescription scene = readScene(path);
-    const std::map<std::string, WorldMesh> bodies = bodiesOf(scene);
+    const std::map<std::string, WorldMesh> bodies = bodiesOf(scene, claims);
     const Eigen::Vector3d down = -(scene.upAxis == UpAxis::Y ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ());
     for (const Claim& claim : claims)
     {
@@ -200,25 +210,22 @@ private:
   void measure(const std::string& file, const Claim& claim, const WorldMesh& body,
     const std::map<std::string, WorldMesh>& bodies, const Eigen::Vector3d& down)
   {
-    // The way down is that by which the body crosses something: to an eighth of the tolerance.
-    constexpr int steps = 8;
+    const Eigen::Vector3d way = 2 * claim.tolerance * down; // farther is as wrong
     double depth = 0;
-    int gap = 2 * steps;
+    double free = 1;
     for (const auto& [name, other] : bodies)
     {
       Eigen::AlignedBox3d reach = body.box;
-      reach.extend(Eigen::Vector3d(body.box.min() + 2 * claim.tolerance * down));
-      reach.extend(Eigen::Vector3d(body.box.max() + 2 * claim.tolerance * down));
+      reach.extend(Eigen::Vector3d(body.box.min() + way));
+      reach.extend(Eigen::Vector3d(body.box.max() + way));
       if (name == claim.object || !reach.intersects(other.box))
       {
         continue;
       }
       depth = std::max(depth, overlapDepth(body, other));
-      for (int step = 0; claim.held && step < gap; ++step)
-      {
-        gap = surfacesCross(body, other, (step + 1) * claim.tolerance / steps * down) ? step : gap;
-      }
+      free = claim.held ? std::min(free, freeWay(body, other, way)) : free;
     }
+    const double gap = depth > 0 ? 0 : free * way.norm(); // what is in another object rests on it
     const auto where = [&](double found)
     {
       return [&file, &claim, found] {
@@ -229,7 +236,7 @@ private:
     this->Depths.add(depth / claim.tolerance, where(depth));
     if (claim.held)
     {
-      this->Gaps.add(double(gap) / steps, where(gap * claim.tolerance / steps));
+      this->Gaps.add(gap / claim.tolerance, where(gap));
     }
   }
 
