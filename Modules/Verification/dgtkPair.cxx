@@ -189,12 +189,15 @@ bool PairTargets::findTime(int x, int y, const Hit& hit, Target& target) const
   const TimedSight& other = *this->ThePair.timed;
   const Eigen::Vector2d value = this->Values ? this->Values->at2(x, y) : Eigen::Vector2d(std::nan(""), 0);
   const Eigen::Vector2d place = this->ThePair.kind == PairKind::Place ? value : centreOf(x, y) + value;
-  const double claimed = place.allFinite() ? other.timeAt(place) : 0;
-  target.time = claimed;
+  target.time = place.allFinite() ? other.timeAt(place) : 0;
   const auto weights = this->Owner.sight(x, y).weights(hit, target.here);
-  const TimedSight::Search search = other.findTime(hit, weights, target.time);
-  target.timed = search == TimedSight::Search::Settled;
-  target.time = search == TimedSight::Search::Unsettled ? claimed : target.time;
+  target.timed = other.findTime(hit, weights, target.time);
+  if (!target.timed && place.allFinite())
+  {
+    const Eigen::Vector2d rounding(this->Values->rounding(value.x()), this->Values->rounding(value.y()));
+    const double claimed = std::abs(other.timeAt(place + rounding) - other.timeAt(place - rounding));
+    target.slack = other.timeSlack(hit, weights, target.time, claimed);
+  }
   return target.timed || place.allFinite();
 }
 

@@ -55,6 +55,7 @@ struct Target
   Eigen::Vector2d pixel{ 0, 0 };    ///< its projection, where it projects
   double time = 0;                  ///< when it is seen there, frames after the other picture's own
   bool timed = true;                ///< that is known; false where it does not settle
+  double slack = 0;                 ///< pixels, of one that does not: what its time may be off
 };
 
 class PairTargets

@@ -356,6 +356,11 @@ class ImageFormation(harness.Case):
         self.assertGreater(circle.sum(), 5)
         self.assertLessEqual(np.abs(rgba[circle][:, :3] * rgba[circle][:, 3:] / 255 - color[circle]).max(), 2)
         self.dgtk("verify", out)
+        # By a curve, a dark edge may be darker than the background's share.
+        del scene["lights"][:]
+        scene["objects"][0]["materials"] = {"*": {"ambient": [0, 0, 0], "diffuse": [0, 0, 0]}}
+        out = self.render(scene, "--samples", 3, "--tone", "filmic", layers="color,color_rgba", name="dark")
+        self.dgtk("verify", out)
         said = self.refused("render", self.path("scene.json"), "-o", self.path("no"), "--layers", "color_rgba", "--samples", 2,
                             "--filter", "gaussian", status=2, says="color_rgba")
         self.assertIn("filter box", said)

@@ -266,10 +266,10 @@ private:
   {
     const TimedSight& sight = this->Owner.time();
     double time = 0;
-    const TimedSight::Search search = sight.findTime(hit, weights, time);
-    open = open || search != TimedSight::Search::Settled;
+    const bool settled = sight.findTime(hit, weights, time);
+    open = open || !settled;
     const Eye eye = sight.eyeAt(time);
-    return search == TimedSight::Search::Settled && eye.project(eye.toCamera(sight.pointAt(time, hit, weights)), pixel);
+    return settled && eye.project(eye.toCamera(sight.pointAt(time, hit, weights)), pixel);
   }
 
   void projected(const Json& found)

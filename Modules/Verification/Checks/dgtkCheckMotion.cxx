@@ -93,7 +93,8 @@ private:
     {
       double difference = std::abs(found[c] - expected[c]);
       difference = c == 0 ? std::min(difference, std::abs(difference - seam)) : difference;
-      error = std::isnan(difference) ? infinite : std::max(error, difference - this->File.rounding(found[c]));
+      error =
+        std::isnan(difference) ? infinite : std::max(error, difference - this->File.rounding(found[c]) - target.slack);
     }
     return error / this->scale(target) / this->Owner.eye().farness(target.here.z()) /
            (this->ThePair.kind == PairKind::Motion ? 1 : this->ThePair.other->eye().farness(target.there.z()));

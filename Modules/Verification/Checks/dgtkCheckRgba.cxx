@@ -76,20 +76,28 @@ void checkRgba(Picture& picture, Results& results)
     [&](int x, int y, Meter& meter)
     {
       const double alpha = file->at(x, y, 3) / fullRgba;
-      // The picture is black where there is no ray.
-      const double black = alpha < 1 ? samples.withoutRay(x, y) / double(samples.all()) : 0;
+      // The picture is black where there is no ray; a curve bends what is black in part.
+      const double dark = alpha < 1 ? samples.withoutRay(x, y) / double(samples.all()) : 0;
       for (int c = 0; c < 3; ++c)
       {
-        const double found = alpha * file->at(x, y, c) + std::max(0.0, 1 - alpha - black) * (*background)[c];
-        // What is brighter than white in front of the background has no code.
-        const bool white = alpha > 0 && file->at(x, y, c) == fullRgba && found < color->at(x, y, c);
-        const double apart = white ? 0 : found - color->at(x, y, c);
+        const double value = file->at(x, y, c);
+        const double found = alpha * value + std::max(0.0, 1 - alpha - dark) * (*background)[c];
+        const double shown = color->at(x, y, c);
+        if (alpha == 0 && (value != 0 || dark > 0))
+        {
+          meter.add(value, [&] { return file->offender(x, y, numberText(value), "0 where nothing is"); });
+          continue;
+        }
+        // What is brighter than white in front of the background, or darker than black, has no code.
+        const bool white = value == fullRgba && found < shown;
+        const bool black = value == 0 && found > shown;
+        const double apart = alpha > 0 && (white || black) ? 0 : found - shown;
         if (std::abs(apart) > levels && samples.at(x, y).isDoubtful(0))
         {
           meter.skip(); // what is drawn and what is traced may differ by a sample at an edge
           continue;
         }
-        meter.add(apart, [&] { return file->offender(x, y, numberText(found), numberText(color->at(x, y, c))); });
+        meter.add(apart, [&] { return file->offender(x, y, numberText(found), numberText(shown)); });
       }
     });
 }

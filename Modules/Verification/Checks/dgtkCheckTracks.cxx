@@ -175,11 +175,8 @@ private:
     const bool claims = std::isfinite(place.u) && std::isfinite(place.v);
     Look look;
     look.point.hit = this->Origins[i].hit;
-    const double claimed = claims ? timed.timeAt({ place.u, place.v }) : 0;
-    look.time = claimed;
-    const TimedSight::Search search = timed.findTime(look.point.hit, this->Points[i].barycentric, look.time);
-    look.settled = search == TimedSight::Search::Settled;
-    look.time = search == TimedSight::Search::Unsettled ? claimed : look.time;
+    look.time = claims ? timed.timeAt({ place.u, place.v }) : 0;
+    look.settled = timed.findTime(look.point.hit, this->Points[i].barycentric, look.time);
     const Eye eye = timed.eyeAt(look.time);
     look.point.x_in_camera = eye.toCamera(timed.pointAt(look.time, look.point.hit, this->Points[i].barycentric));
     look.point.projects = (look.settled || claims) && eye.project(look.point.x_in_camera, look.point.pixel);

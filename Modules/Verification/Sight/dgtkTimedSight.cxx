@@ -3,7 +3,9 @@
 
 #include "dgtkRaySource.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dgtk
 {
@@ -11,7 +13,8 @@ namespace dgtk
 namespace
 {
 constexpr int mostTimeSteps = 200;
-constexpr double settled = 1e-14; ///< of a frame
+constexpr double settled = 1e-14;       ///< of a frame
+constexpr double timePrecision = 1e-12; ///< of the shutter's time
 
 double part(double at, int size) { return at <= 0 ? 0 : at >= size ? 1 : at / size; }
 } // namespace
@@ -76,24 +79,41 @@ Eigen::Vector3d TimedSight::pointAt(double time, const Hit& hit, const Eigen::Ve
            : pointOf(this->Middle->instance(hit.object), hit, weights);
 }
 
-TimedSight::Search TimedSight::findTime(const Hit& hit, const Eigen::Vector3d& weights, double& time) const
+bool TimedSight::placeAt(double time, const Hit& hit, const Eigen::Vector3d& weights, Eigen::Vector2d& pixel) const
 {
-  for (int step = 0; this->rolls() && step < mostTimeSteps; ++step)
+  const Eye eye = this->eyeAt(time);
+  return eye.project(eye.toCamera(this->pointAt(time, hit, weights)), pixel);
+}
+
+bool TimedSight::findTime(const Hit& hit, const Eigen::Vector3d& weights, double& time) const
+{
+  double now = time;
+  Eigen::Vector2d pixel;
+  for (int step = 0; this->rolls() && step < mostTimeSteps && this->placeAt(now, hit, weights, pixel); ++step)
   {
-    const Eye eye = this->eyeAt(time);
-    Eigen::Vector2d pixel;
-    if (!eye.project(eye.toCamera(this->pointAt(time, hit, weights)), pixel))
-    {
-      return Search::Behind;
-    }
     const double next = this->timeAt(pixel);
-    if (std::abs(next - time) <= settled)
+    if (std::abs(next - now) <= settled)
     {
-      return Search::Settled;
+      time = now;
+      return true;
     }
-    time = next;
+    now = next;
   }
-  return this->rolls() ? Search::Unsettled : Search::Settled;
+  return !this->rolls();
+}
+
+double TimedSight::timeSlack(const Hit& hit, const Eigen::Vector3d& weights, double time, double more) const
+{
+  const TimeSpan span =
+    this->Table ? this->Table->times() : TimeSpan{ 0, this->Middle->eye().record().rollingShutter.duration };
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double slack =
+    more + std::max(timePrecision * (span.last - span.first), rounding * std::abs(this->Instants->frame() + time));
+  Eigen::Vector2d before;
+  Eigen::Vector2d after;
+  return this->placeAt(time - slack, hit, weights, before) && this->placeAt(time + slack, hit, weights, after)
+           ? (after - before).norm()
+           : 0;
 }
 
 } // namespace dgtk

@@ -36,16 +36,15 @@ public:
   /// A point of an object's triangle by weights of its corners, world frame.
   Eigen::Vector3d pointAt(double time, const Hit& hit, const Eigen::Vector3d& weights) const;
   /// When a point of an object's triangle is seen, by weights of its corners: plain iteration of time = timeAt(place at
-  /// time) from a time that is given.
-  enum class Search
-  {
-    Settled,
-    Behind,   ///< at some time it is not before the camera
-    Unsettled ///< it moves as fast as the shutter, and may be seen several times
-  };
-  Search findTime(const Hit& hit, const Eigen::Vector3d& weights, double& time) const;
+  /// time) from a time that is given. False, with that time, where it does not settle: of what moves as fast as the
+  /// shutter, and may be seen several times, and of what is at some time not before the camera.
+  bool findTime(const Hit& hit, const Eigen::Vector3d& weights, double& time) const;
+  /// Pixels by which the point moves in the time that a file's times may be off: 1e-12 of the shutter's, and rounding;
+  /// `more` frames.
+  double timeSlack(const Hit& hit, const Eigen::Vector3d& weights, double time, double more) const;
 
 private:
+  bool placeAt(double time, const Hit& hit, const Eigen::Vector3d& weights, Eigen::Vector2d& pixel) const;
   std::shared_ptr<const Sight> Middle;
   std::shared_ptr<const InstantSource> Instants;
   std::shared_ptr<const CameraModel> Table;
