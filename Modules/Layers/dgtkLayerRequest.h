@@ -33,6 +33,7 @@ struct LayerRequest
   int width = 0;                    ///< pixels; 0: the camera's own size, or 640 x 480
   int height = 0;
   OptionValues options; ///< of allOptions(): `options["points_step"] = "2"`
+  std::string picture;  ///< the only camera that is drawn, beside others that it is related to; empty: all are
 };
 
 /// One row of the list of layers.

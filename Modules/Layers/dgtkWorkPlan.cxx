@@ -259,7 +259,8 @@ void checkCameras(WorkPlan& plan, const Stage& stage)
   for (const Job& job : plan.jobs)
   {
     const LayerRequest& request = plan.request;
-    if (!seen.insert(job.camera).second)
+    const std::string& own = stage.description().cameras[job.camera].name;
+    if (!seen.insert(job.camera).second || (!request.picture.empty() && own != request.picture))
     {
       continue;
     }

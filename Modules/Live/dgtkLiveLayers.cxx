@@ -222,6 +222,7 @@ WorkPlan LiveEye::Impl::planOf(const std::string& layer) const
   request.width = this->Question.width;
   request.height = this->Question.height;
   request.options["samples"] = liveSamples;
+  request.picture = scene.cameras[this->Camera].name;
   WorkPlan plan = makeWorkPlan(request, *this->Own);
   for (Job& job : plan.jobs)
   {

@@ -101,6 +101,8 @@ dgtk::WorkPlan Wanted::plan()
   }
   const int at = this->frame.value_or(this->stage->description().firstFrame());
   this->request.frames = dgtk::FrameRange{ at, at, 1 };
+  const std::vector<dgtk::CameraDescription>& cameras = this->stage->description().cameras;
+  this->request.picture = this->camera.empty() && !cameras.empty() ? cameras.front().name : this->camera;
   dgtk::WorkPlan plan = dgtk::makeWorkPlan(this->request, *this->stage);
   const std::vector<std::string> names = this->stage->cameraNames();
   const auto own = std::find_if(plan.jobs.begin(), plan.jobs.end(),

@@ -180,6 +180,20 @@ pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
             numpy.testing.assert_array_equal(file, array)
             self.assertGreater(len(numpy.unique(array)), 20)
 
+    def test_another_camera_that_cannot_be_drawn(self):
+        """Only the picture that is asked for is drawn, or has a matrix."""
+        import dgtk
+
+        plain = dgtk.load(DEMO)
+        description = plain.description()
+        description["cameras"].append({"name": "wide", "model": "fisheye", "eye": [0, 2, 9], "lookAt": [0, 1, 0], "fovY": 120})
+        scene = dgtk.scene(description, like=plain)
+        for layer, options in (("depth", {"visibility": "raster"}), ("color", {"renderer": "vtk"}), ("calibration", {})):
+            alone, beside = (dgtk.render(one, layer, camera="right", size=(64, 48), **options) for one in (plain, scene))
+            self.assertEqual(pickle.dumps(alone), pickle.dumps(beside), layer)
+            with self.assertRaisesRegex(ValueError, "camera 'wide' .fisheye. has no linear projection"):
+                dgtk.render(scene, layer, camera="wide", size=(64, 48), **options)
+
     def test_several_layers_outlive_scene_and_renderer(self):
         import dgtk
 
