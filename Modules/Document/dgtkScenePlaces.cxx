@@ -188,7 +188,6 @@ std::shared_ptr<const SceneState> surroundingsOf(
 {
   SceneDescription alone;
   alone.file = scene.file;
-  alone.upAxis = scene.upAxis;
   alone.background = scene.background;
   alone.fog = scene.fog;
   alone.lights = scene.lights;

@@ -215,7 +215,7 @@ ExportNotes::Place ExportNotes::placeOf(std::size_t item) const
 
 void ExportNotes::failDamaged() const
 {
-  throw MachineError(this->Holder.pathOf(notesName()) + ": is damaged; start over");
+  throw InputError(this->Holder.pathOf(notesName()), 0, "is damaged; start over");
 }
 
 ItemRecord ExportNotes::read(std::size_t item) const

@@ -139,6 +139,12 @@ class Frame(datasets.ExportCase):
             process.wait()
             unfinished = not os.path.exists(os.path.join(part, "export.json"))
             killed += unfinished
+            if unfinished and i == KILLS // 2:
+                damaged = shutil.copytree(part, self.path("damaged"))
+                with open(os.path.join(damaged, ".dgtk-journal-notes"), "r+b") as notes:
+                    notes.seek(64 + 16)  # behind the request's hash and the first record's head
+                    notes.write(b"\xff" * 16)
+                self.refused(*command[1:], "-o", damaged, "--resume", status=3, says=".dgtk-journal-notes: is damaged; start over")
             subprocess.run([*command, "-o", part, "--resume"], check=True)
             self.assert_same_files(whole, part)
         self.assertGreater(killed, KILLS // 2)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pascal VOC sets, read as torchvision does: XML by ElementTree, codes of the palette pictures."""
+import json
 import os
 import struct
 import xml.etree.ElementTree as ElementTree
@@ -86,6 +87,15 @@ class Voc(datasets.ExportCase):
             stem = os.path.splitext(os.path.basename(entry["name"]))[0]
             names.update(one.findtext("name") for one in ElementTree.parse(os.path.join(folder, "Annotations", stem + ".xml")).getroot().findall("object"))
         self.assertEqual(names, {"wall", "Car", "delivery van", "object"})
+
+    def test_letters_digits_and_minus_are_what_names_keep(self):
+        path = datasets.stereo(self.path("scene"), 1)
+        with open(path, encoding="utf-8") as file:
+            scene = json.load(file)
+        for camera, name in zip(scene["cameras"], ("AZaz09-", "[`{;.=")):
+            camera["name"] = name
+        folder, _ = self.export(self.render(datasets._write(os.path.dirname(path), "names", scene), LAYERS), "voc")
+        self.assertEqual(sorted(os.listdir(os.path.join(folder, "JPEGImages"))), ["AZaz09-_000000.jpg", "_______000000.jpg"])
 
     def test_an_empty_picture(self):
         dataset = self.render(datasets.walk(self.path("scene")), LAYERS)

@@ -54,6 +54,29 @@ TEST(ScenePlaces, AreThoseOfTheStage)
   }
 }
 
+TEST(ScenePlaces, SurroundingsAreThoseOfTheStage)
+{
+  for (const UpAxis up : { UpAxis::Y, UpAxis::Z })
+  {
+    SceneDescription scene = readScene(sourceFile("Data/Scenes/materials_environment.json"));
+    scene.upAxis = up;
+    scene.fog.density = Track<double>(0.25);
+    scene.background = Eigen::Vector3d(0.1, 0.2, 0.3);
+    ModelLibrary models;
+    models.load(scene);
+    const std::shared_ptr<const SceneState> found = placeScene(scene, models, 0).surroundings;
+    const std::shared_ptr<const SceneState> expected = Stage::load(scene)->at(0);
+    ASSERT_TRUE(found->environment && expected->environment);
+    EXPECT_EQ(found->environment->image_from_world, expected->environment->image_from_world);
+    EXPECT_EQ(found->environment->image->rgb, expected->environment->image->rgb);
+    EXPECT_EQ(found->environment->intensity, expected->environment->intensity);
+    EXPECT_EQ(found->environment->background, expected->environment->background);
+    EXPECT_EQ(found->background, Eigen::Vector3d(0.1, 0.2, 0.3));
+    EXPECT_EQ(found->fog.density, 0.25);
+    ASSERT_EQ(found->lights.size(), expected->lights.size());
+  }
+}
+
 TEST(ScenePlaces, PickingFindsWhatARendererSees)
 {
   const SceneDescription scene = readScene(sourceFile("Data/Scenes/parenting.json"));
