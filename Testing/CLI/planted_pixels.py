@@ -324,7 +324,13 @@ def pictures_without_background():
         rows, columns = np.nonzero(data.interior("right", 0)[::4, ::4])
         return data.change(name, (4 * int(columns[0]), 4 * int(rows[0])), lambda v: v - [0, 0, 0, 1])
 
+    def nothing(data, _):
+        """Where nothing is there is no colour."""
+        rows, columns = np.nonzero(data.load(name)[..., 3] == 0)
+        return data.change(name, (int(columns[0]), int(rows[0])), lambda v: v + [0, 4, 0, 0])
+
     yield Plant("rgba", "color_rgba alpha", 1e-7, share, small=False)
+    yield Plant("rgba", "color_rgba", 2, nothing, small=False)
     yield Plant("rgba", "color_rgba", 2, lambda data, _: data.change(name, data.spot("right", 0), lambda v: v + np.where(v < 128, [4, 0, 0, 0], [-4, 0, 0, 0])), small=False)
 
 
