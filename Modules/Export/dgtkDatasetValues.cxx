@@ -80,6 +80,18 @@ void requirePinholes(const DatasetView& dataset, const std::string& format)
   }
 }
 
+void requireNoSkew(const DatasetView& dataset, const std::string& format)
+{
+  for (const DatasetShot& shot : dataset.shots())
+  {
+    if (shot.camera.K(0, 1) != 0)
+    {
+      throw UsageError(
+        format + ": camera " + quoted(shot.name()) + " has a skew, which the format cannot say; render a twin of it");
+    }
+  }
+}
+
 std::string SafeNames::of(const std::string& original)
 {
   const auto known = this->Given.find(original);

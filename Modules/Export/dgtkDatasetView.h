@@ -178,6 +178,8 @@ DGTKEXPORT_EXPORT bool isPinhole(const CameraRecord& camera);
 DGTKEXPORT_EXPORT std::vector<double> distortionOf(const CameraRecord& camera);
 /// Throws a UsageError that names camera and format for what isPinhole() denies.
 DGTKEXPORT_EXPORT void requirePinholes(const DatasetView& dataset, const std::string& format);
+/// The same of a skew, for formats that hold two focal lengths and a principal point alone.
+DGTKEXPORT_EXPORT void requireNoSkew(const DatasetView& dataset, const std::string& format);
 
 /// Names that are safe in every format: letters, digits, '_' and '-' of ASCII; unique among those that were asked for.
 class DGTKEXPORT_EXPORT SafeNames

@@ -239,6 +239,17 @@ class Frame(datasets.ExportCase):
         self.assertEqual(len(said.splitlines()), 1)
         self.assertFalse(os.path.exists(self.path("no")))
 
+    def test_a_skew_is_refused_where_only_focal_lengths_stand(self):
+        path = datasets.stereo(self.path("scene"), 4)
+        scene = datasets.load_json(path)
+        for camera in scene["cameras"]:
+            camera["K"] = [[80, 0.5, 48], [0, 80, 36], [0, 0, 1]]
+        path = datasets._write(os.path.dirname(path), "skew", scene)
+        for form, frames in (("tum", "0:1"), ("gltf", "0:1"), ("spring", "1:2")):
+            dataset = self.path("of_" + form)
+            self.dgtk("render", path, "-o", dataset, "--for", form, "--frames", frames, "--quiet")
+            self.refused("export", dataset, "--format", form, "-o", self.path("none"), status=2, says=form + ": camera 'left eye' has a skew")
+
     def test_a_full_disk_leaves_one_line_and_nothing_whole(self):
         dataset = self.render(datasets.stereo(self.path("scene")), datasets.LAYERS)
         folder = self.path("full")

@@ -53,6 +53,7 @@ public:
   {
     requireWhole(options, tumName);
     requirePinholes(dataset, tumName);
+    requireNoSkew(dataset, tumName);
     requireFixedIntrinsics(dataset, tumName);
     dataset.metres();
     if (isIcl(options) && dataset.frames().front() < 0)

@@ -337,16 +337,10 @@ public:
   {
     requireWhole(options, gltfName);
     requirePinholes(dataset, gltfName);
+    requireNoSkew(dataset, gltfName);
     requireFixedIntrinsics(dataset, gltfName);
     dataset.metres();
     dataset.seconds(0);
-    for (const DatasetShot& shot : dataset.shots())
-    {
-      if (shot.camera.K(0, 1) != 0)
-      {
-        throw UsageError("gltf: camera " + quoted(shot.name()) + " has skew, which the format cannot say");
-      }
-    }
     for (const ObjectRecord& object : dataset.objects())
     {
       if (object.geometryFile.empty())

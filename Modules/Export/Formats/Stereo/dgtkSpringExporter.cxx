@@ -130,6 +130,7 @@ public:
     requireWhole(options, springName);
     requirePng(options, springName);
     requireConsecutive(dataset, springName);
+    requireNoSkew(dataset, springName);
     dataset.metres();
     for (const CameraEyes& pair : pairsOf(dataset, springName))
     {
