@@ -245,7 +245,7 @@ class Frame(datasets.ExportCase):
         for camera in scene["cameras"]:
             camera["K"] = [[80, 0.5, 48], [0, 80, 36], [0, 0, 1]]
         path = datasets._write(os.path.dirname(path), "skew", scene)
-        for form, frames in (("tum", "0:1"), ("gltf", "0:1"), ("spring", "1:2")):
+        for form, frames in (("bop", "0:1"), ("tum", "0:1"), ("gltf", "0:1"), ("spring", "1:2")):
             dataset = self.path("of_" + form)
             self.dgtk("render", path, "-o", dataset, "--for", form, "--frames", frames, "--quiet")
             self.refused("export", dataset, "--format", form, "-o", self.path("none"), status=2, says=form + ": camera 'left eye' has a skew")

@@ -78,6 +78,7 @@ public:
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
     requirePinholes(dataset, bopName);
+    requireNoSkew(dataset, bopName); // of camera.json
     dataset.metres();
     requireEverywhere(dataset, exported::color().of(options), bopName, { "png" });
     requireEverywhere(dataset, exported::depth().of(options), bopName);
