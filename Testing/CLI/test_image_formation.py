@@ -360,6 +360,9 @@ class ImageFormation(harness.Case):
         del scene["lights"][:]
         scene["objects"][0]["materials"] = {"*": {"ambient": [0, 0, 0], "diffuse": [0, 0, 0]}}
         out = self.render(scene, "--samples", 3, "--tone", "filmic", layers="color,color_rgba", name="dark")
+        color, rgba = (self.read(os.path.join(out, "c", layer, "000000.png")).astype(float) for layer in ("color", "color_rgba"))
+        edge = (rgba[..., 3] > 0) & (rgba[..., 3] < 255) & (np.hypot(*np.meshgrid(np.arange(48) - 23.5, np.arange(36) - 17.5)) < 12)
+        self.assertLess((color[edge] - (1 - rgba[edge][:, 3:] / 255) * color[18, 30]).min(), -3)
         self.dgtk("verify", out)
         said = self.refused("render", self.path("scene.json"), "-o", self.path("no"), "--layers", "color_rgba", "--samples", 2,
                             "--filter", "gaussian", status=2, says="color_rgba")

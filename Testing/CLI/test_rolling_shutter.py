@@ -188,6 +188,21 @@ class RollingShutters(Case):
                     ("alpha", "coverage"), ("cameras", "cameras")):
             self.assertGreater(counts.get(key, 0), 0, f"{key} of {sorted(counts)}")
 
+    def test_points_that_overtake_the_shutter_are_verified(self):
+        """Far out on a ground that turns, also where it passes the plane of the camera."""
+        ground = {"name": "ground", "model": os.path.join(MODELS, "ground.ac"), "scale": [0.5, 0.5, 0.5],
+                  "position": {"keys": [[1, [0.77, 0.38, -1]], [5, [0.43, 0.4, 0]]]},
+                  "orientation": {"keys": [[0, [0.574907, -0.583051, 0.472471, -0.326045]], [2, [-0.826396, -0.041877, -0.055489, -0.558781]]],
+                                  "interpolation": "smooth"}}
+        cameras = [{"name": "wide", "model": "fisheye", "K": [[11, 0, 20.5], [0, 10, 13.5], [0, 0, 1]], "distortion": [0.02, -0.004, 0.0006, -5e-5],
+                    "width": 41, "height": 31, "near": 1, "far": 8, "eye": [-1.9, 1.525, 7.075], "lookAt": [0, 0.5, 0]},
+                   {"name": "rolls", "K": [[66, 0, 21], [0, 60, 16], [0, 0, 1]], "width": 41, "height": 31, "near": 1, "far": 500,
+                    "position": [-0.895592449590572, 1.2, 6], "orientation": [0, 1, 0, 0], "rollingShutter": {"duration": 0.9, "direction": "up"}}]
+        self.render("fast", {"objects": [ground], "cameras": cameras}, "depth,objects,correspondence,flow_backward", "2", "--size", "39x49",
+                    "--pairs", "wide:rolls,rolls:rolls-1")
+        report = json.loads(self.dgtk("verify", self.path("fast"), "--json").stdout)
+        self.assertGreater(next(row["count"] for row in report["residuals"] if row["layer"] == "correspondence_rolls"), 0)
+
     def test_bytes_do_not_depend_on_threads_nor_on_what_else_is_asked(self):
         self.save_table()
         layers = "color,depth,objects,flow_forward,alpha,ldi,boxes"

@@ -85,7 +85,7 @@ class Shards(Case):
         self.write("models/seen.mtl", "newmtl m\nmap_Kd ../grey.pgm\n")
         self.write("grey.pgm", "P2\n1 1\n255\n99\n")
         self.write("scene.json", json.dumps(
-            {"objects": [{"model": "models/seen.obj"}, {"model": "quad.obj", "materials": {"*": {"texture": "grey.pgm"}}}],
+            {"objects": [{"model": "models/seen.obj"}, {"model": "quad.obj", "materials": {"*": {"texture": "models/../grey.pgm"}}}],
              "keyFrames": [0, 3], "cameras": [{"name": "c", "eye": [0, 0, 6], "lookAt": [0, 0, 0]}]}))
         options = ("--layers", "color", "--size", "16x12", "--quiet")
         self.dgtk("render", self.path("scene.json"), "-o", self.path("whole"), *options)

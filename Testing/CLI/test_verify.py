@@ -390,6 +390,16 @@ class Placed(Case):
         counts = {(row["check"], row["layer"]): row["count"] for row in report["residuals"]}
         self.assertEqual(counts["motion", "disparity"], 4 * 64 * 48)  # two cameras, two frames
 
+    def test_in_one_place_but_for_a_rounding(self):
+        """The middle pixel looks along what is between the cameras, and has no epipolar line."""
+        eyes = [0, 2.0000000000000004, 7.000000000000001], [0, 2, 7]
+        scene = {"objects": [{"model": os.path.join(SCENES, "..", "Models", "floor.ac")}],
+                 "cameras": [{"name": f"c{angle}", "fovY": angle, "eye": eye, "lookAt": [0, 0, 0]} for angle, eye in zip((45, 30), eyes)]}
+        path = self.write("scene.json", json.dumps(scene))
+        self.dgtk("render", path, "-o", self.path("set"), "--quiet", "--layers", "depth,objects,correspondence", "--size", "23x17")
+        report = json.loads(self.dgtk("verify", self.path("set"), "--json").stdout)
+        self.assertEqual(sum(row["count"] > 0 for row in report["residuals"] if row["check"] == "epipolar"), 2)
+
     def test_far_from_the_origin(self):
         layers = "depth,objects,position,normal,edges,correspondence,flow_forward,sceneflow,disparity"
         for offset in ([0, 0, 0], [3e7, -1e7, 2e7], [0, 0, 4e8]):

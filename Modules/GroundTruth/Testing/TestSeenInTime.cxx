@@ -93,6 +93,11 @@ TEST(SeenInTime, IsWhenItsPlaceInTheImageIsSeen)
   { return [=](double t) { return t >= first && t <= last ? 1.0 : -1.0; }; };
   const auto without = [](double first, double last)
   { return [=](double t) { return t > first && t < last ? -1.0 : 1.0; }; };
+  const auto jumping = [](double t)
+  {
+    const double later = t < 0.3 ? -0.8 : 0.6;
+    return t < -0.5 ? 0 : later;
+  };
   const Row rows[] = {
     { "at rest", always(0.3), always(1), 0.3 },
     { "at the camera's centre", always(0.3), always(0), 0.3 },
@@ -116,10 +121,7 @@ TEST(SeenInTime, IsWhenItsPlaceInTheImageIsSeen)
     { "is there from that time on", always(0.5), within(0.5, 1), 0.5 },
     { "is there at the first time alone", always(-1), within(-1, -0.99), -1 },
     { "jumps past its time", [](double t) { return t < 0.1 ? 0.5 : -0.5; }, always(1), never },
-    { "jumps past its time, and is seen later", [](double t) { return t < -0.5  ? 0
-                                                                      : t < 0.3 ? -0.8
-                                                                                : 0.6; }, always(1),
-      0.6 },
+    { "jumps past its time, and is seen later", jumping, always(1), 0.6 },
     { "is there at the last time alone", always(1), within(0.99, 1), 1 },
   };
   for (const double frame : { 0.0, 10.0, 999999.0 })
