@@ -23,6 +23,35 @@ inline std::array<std::uint8_t, 4> colorMapTexel(const Image& map, const Eigen::
   return { texel[0], texel[1], texel[2], texel[3] };
 }
 
+/// The texel of Model::textures[texture] that is nearest to a point of a triangle, R, G, B, A; null where there is no
+/// such texture, picture or coordinate. `barycentrics` of the second and third corner.
+inline const std::uint8_t* nearestTexel(
+  const Model& model, std::uint32_t triangle, const Eigen::Vector2d& barycentrics, int texture)
+{
+  if (texture < 0 || model.uvs.empty() || !model.textures[std::size_t(texture)].image)
+  {
+    return nullptr;
+  }
+  const bool repeats = model.textures[std::size_t(texture)].repeats;
+  const Image& image = *model.textures[std::size_t(texture)].image;
+  const auto& corners = model.triangles[triangle];
+  const Eigen::Vector2d& first = model.uvs[corners[0]];
+  const Eigen::Vector2d uv =
+    first + barycentrics.x() * (model.uvs[corners[1]] - first) + barycentrics.y() * (model.uvs[corners[2]] - first);
+  if (!uv.allFinite() || image.width < 1 || image.height < 1)
+  {
+    return nullptr;
+  }
+  const auto within = [repeats](double coordinate, int size)
+  {
+    const double cell = std::floor(coordinate * size);
+    const double index = repeats ? std::fmod(cell, size) : std::clamp(cell, 0.0, size - 1.0);
+    return std::isfinite(index) ? std::size_t(index < 0 ? index + size : index) : std::size_t(0);
+  };
+  const std::size_t row = std::size_t(image.height) - 1 - within(uv.y(), image.height);
+  return &image.rgba[(row * std::size_t(image.width) + within(uv.x(), image.width)) * 4];
+}
+
 /// The colour of a vertex, R, G, B, A, whichever way the model has it; white where it has none.
 inline std::array<std::uint8_t, 4> vertexColor(const Model& model, std::size_t vertex)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkVisibility.h"
 
+#include "dgtkColorMap.h"
 #include "dgtkError.h"
 #include "dgtkSurfaceRows.h"
 
@@ -18,14 +19,6 @@ constexpr long singleTilePixels = 4L << 20;
 constexpr int largeTileWidth = 2048;
 constexpr int largeTileHeight = 512;
 constexpr int halfAlpha = 128;
-
-/// floor(coordinate * size) mod size.
-int texelIndex(double coordinate, int size)
-{
-  const double index = std::fmod(std::floor(coordinate * size), size);
-  return std::isfinite(index) ? int(index < 0 ? index + size : index) : 0;
-}
-
 } // namespace
 
 TileGrid::TileGrid(int width, int height)
@@ -75,22 +68,9 @@ bool isCutOut(const Instance& instance, std::uint32_t triangle, const Eigen::Vec
     return false;
   }
   const Material& material = materials[model.parts[model.partOf(triangle)].material];
-  if (!material.cutOut || material.texture < 0 || !model.textures[material.texture].image)
-  {
-    return false;
-  }
-  const Image& image = *model.textures[material.texture].image;
-  const auto& corners = model.triangles[triangle];
-  const Eigen::Vector2d& first = model.uvs[corners[0]];
-  const Eigen::Vector2d uv =
-    first + barycentrics.x() * (model.uvs[corners[1]] - first) + barycentrics.y() * (model.uvs[corners[2]] - first);
-  if (!uv.allFinite() || image.width < 1 || image.height < 1)
-  {
-    return false;
-  }
-  const int column = texelIndex(uv.x(), image.width);
-  const int row = image.height - 1 - texelIndex(uv.y(), image.height);
-  return image.rgba[(std::size_t(row) * image.width + column) * 4 + 3] < halfAlpha;
+  const std::uint8_t* const texel =
+    material.cutOut ? nearestTexel(model, triangle, barycentrics, material.texture) : nullptr;
+  return texel != nullptr && texel[3] < halfAlpha;
 }
 
 } // namespace dgtk

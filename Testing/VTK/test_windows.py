@@ -73,6 +73,53 @@ class Colours(unittest.TestCase):
                     renderer.AddLight(other)
                     self.compare(renderer)
 
+    def test_a_texture_that_does_not_repeat(self):
+        """Its border goes on: in its colours, and in its holes, which are exact ground truth."""
+        texels = numpy.full((4, 4, 4), 255, numpy.uint8)
+        texels[..., 0] = 60 * numpy.arange(4)
+        texels[1:, :2, 3] = 0
+        image = vtk.vtkImageData()
+        image.SetDimensions(4, 4, 1)
+        image.GetPointData().SetScalars(numpy_to_vtk(texels.reshape(-1, 4), deep=1))
+        wall = vtk.vtkPlaneSource()
+        wall.Update()
+        data = wall.GetOutput()
+        data.GetPointData().SetTCoords(numpy_to_vtk(3 * vtk_to_numpy(data.GetPointData().GetTCoords()) - 1, deep=1))
+        shown = {}
+        for repeats in (True, False):
+            texture = vtk.vtkTexture()
+            texture.SetInputData(image)
+            texture.SetRepeat(repeats)
+            made = scenes.actor(data)
+            made.SetTexture(texture)
+            made.GetProperty().LightingOff()
+            renderer = scenes.renderer(made, eye=(0, 0, 2.2))
+            self.compare(renderer, unlike=0.01)
+            shot = dgtk.snapshot(renderer, SIZE)
+            shown[repeats] = (dgtk.render(shot, "objects") > 0).sum()
+            with tempfile.TemporaryDirectory() as folder:
+                if repeats:
+                    shot.save(folder + "/scene.json")
+                else:
+                    with self.assertRaisesRegex(ValueError, "actor-1 has a texture that does not repeat, which its files cannot say"):
+                        shot.save(folder + "/scene.json")
+                    self.assertEqual(os.listdir(folder), [])
+        self.assertNotEqual(shown[True], shown[False])
+
+    def test_smooth_surfaces_that_are_cut(self):
+        cone = vtk.vtkConeSource()
+        cone.SetResolution(5)
+        smooth = vtk.vtkPolyDataNormals()
+        smooth.SetInputConnection(cone.GetOutputPort())
+        smooth.SplittingOff()
+        made = scenes.actor(smooth)
+        made.RotateY(40)
+        plane = vtk.vtkPlane()
+        plane.SetOrigin(0.05, 0, 0)
+        plane.SetNormal(1, 0.3, 0.2)
+        made.GetMapper().AddClippingPlane(plane)
+        self.compare(scenes.renderer(made, eye=(0.7, 0.5, 1.5)), mean=0.01)
+
     def physical(self, change):
         sphere = vtk.vtkTexturedSphereSource()
         sphere.SetThetaResolution(40)

@@ -53,7 +53,13 @@ public:
     mapColors(mapper, points, this->Colors, opacity); // which VTK has in the colours of glyphs, too
   }
 
-  bool isThere(vtkIdType point) const { return this->Mask == nullptr || this->Mask->GetValue(point) != 0; }
+  /// VTK draws nothing where a quaternion is no turn.
+  bool isThere(vtkIdType point) const
+  {
+    return (this->Mask == nullptr || this->Mask->GetValue(point) != 0) &&
+           (this->Mapper.GetOrientationMode() != vtkGlyph3DMapper::QUATERNION || this->Orientation == nullptr ||
+             normOf(*this->Orientation, point) > 0);
+  }
 
   std::size_t sourceOf(vtkIdType point, std::size_t sources) const
   {
@@ -127,7 +133,7 @@ private:
     this->Orientation->GetTuple(point, o);
     if (mode == vtkGlyph3DMapper::QUATERNION)
     {
-      return Eigen::Quaterniond(o[0], o[1], o[2], o[3]).toRotationMatrix();
+      return Eigen::Quaterniond(o[0], o[1], o[2], o[3]).normalized().toRotationMatrix(); // of any length, as in VTK
     }
     if (mode == vtkGlyph3DMapper::DIRECTION)
     {

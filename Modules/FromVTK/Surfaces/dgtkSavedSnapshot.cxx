@@ -2,6 +2,7 @@
 #include "dgtkSavedSnapshot.h"
 
 #include "dgtkColorMap.h"
+#include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkGlyphCopies.h"
 #include "dgtkLayerWriter.h"
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 namespace dgtk
@@ -232,23 +234,63 @@ Model withScaledNormals(const Model& from)
   return model;
 }
 
-/// Files hold ambient colours up to 1: more of them needs more ambient light.
-bool needsAmbientLight(const FrozenView& view)
+/// Whether a texture of a model is seen beyond its border, which goes on there.
+bool goesOnBeyondBorder(const Model& model)
 {
-  for (const FrozenActor& actor : view.actors)
+  const auto isOutside = [&model](std::uint32_t vertex)
+  { return (model.uvs[vertex].array() < 0).any() || (model.uvs[vertex].array() > 1).any(); };
+  for (const Part& part : model.parts)
   {
-    for (const Material& material : actor.model->materials)
+    const Material& m = model.materials[std::size_t(part.material)];
+    const int maps[] = { m.texture, m.normalMap, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap };
+    if (std::all_of(std::begin(maps), std::end(maps),
+          [&model](int map) { return map < 0 || model.textures[std::size_t(map)].repeats; }) ||
+        model.uvs.empty())
     {
-      if (material.ambient.maxCoeff() > 1)
-      {
-        return true;
-      }
+      continue;
+    }
+    const auto first = model.triangles.begin() + std::ptrdiff_t(part.firstTriangle);
+    if (std::any_of(first, first + std::ptrdiff_t(part.triangles),
+          [&](const auto& corners) { return std::any_of(corners.begin(), corners.end(), isOutside); }))
+    {
+      return true;
     }
   }
   return false;
 }
 
-void addAmbientLight(SceneDescription& scene)
+void refuseBorders(const FrozenView& view)
+{
+  for (const FrozenActor& actor : view.actors)
+  {
+    const bool goesOn = actor.whole->copies ? std::any_of(actor.whole->copies->begin(), actor.whole->copies->end(),
+                                                [](const ModelCopy& copy)
+                                                { return copy.firstInPart == 0 && goesOnBeyondBorder(*copy.model); })
+                                            : goesOnBeyondBorder(*actor.model);
+    if (goesOn)
+    {
+      throw InputError("VTK scene", 0, actor.name + " has a texture that does not repeat, which its files cannot say",
+        "texture coordinates from 0 to 1, or a texture that repeats");
+    }
+  }
+}
+
+/// Files hold ambient colours up to 1: the ambient light of a scene whose colours are at most that. More than the
+/// renderer's own needs a light.
+double ambientLight(const FrozenView& view)
+{
+  double most = 0;
+  for (const FrozenActor& actor : view.actors)
+  {
+    for (const Material& material : actor.model->materials)
+    {
+      most = std::max(most, material.ambient.maxCoeff());
+    }
+  }
+  return most > 1 ? std::max(1.0, most * worldAmbient) : worldAmbient;
+}
+
+void addAmbientLight(SceneDescription& scene, double more)
 {
   if (scene.lights.empty())
   {
@@ -258,7 +300,7 @@ void addAmbientLight(SceneDescription& scene)
   ambient.name = "ambient";
   ambient.kind = LightKind::Directional;
   ambient.position = Eigen::Vector3d(0, 1, 0);
-  ambient.ambient = Eigen::Vector3d(Eigen::Vector3d::Constant(1 - worldAmbient));
+  ambient.ambient = Eigen::Vector3d(Eigen::Vector3d::Constant(more));
   ambient.diffuse = Eigen::Vector3d(0, 0, 0);
   ambient.specular = Eigen::Vector3d(0, 0, 0);
   scene.lights.push_back(ambient);
@@ -267,23 +309,24 @@ void addAmbientLight(SceneDescription& scene)
 
 void saveSnapshot(const FrozenView& view, const std::string& path)
 {
+  refuseBorders(view);
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const std::string models = (std::filesystem::path(folder) / modelFolder).string();
   makeFolders(models);
   SceneDescription scene = view.stage->description();
   scene.folder = folder;
-  const bool ambient = needsAmbientLight(view);
+  const double ambient = ambientLight(view);
   for (std::size_t i = 0; i < view.actors.size(); ++i)
   {
     const FrozenActor& actor = view.actors[i];
     const std::shared_ptr<const Model> model = actor.whole->copies ? writtenOut(*actor.whole) : actor.model;
-    ObjFile(withScaledNormals(*model), models, actor.name).write(ambient ? worldAmbient : 1.0);
+    ObjFile(withScaledNormals(*model), models, actor.name).write(worldAmbient / ambient);
     scene.objects[i].model = std::string(modelFolder) + '/' + actor.name + ".obj";
     scene.objects[i].materials = physicalMaterials(*model, actor.name);
   }
-  if (ambient)
+  if (ambient > worldAmbient)
   {
-    addAmbientLight(scene);
+    addAmbientLight(scene, ambient - worldAmbient);
   }
   writeScene(scene, path);
 }

@@ -111,7 +111,7 @@ private:
     p.push_back(mixed(p[a], p[b]));
     std::vector<Eigen::Vector3f>& n = this->Points->normals;
     const Eigen::Vector3f normal = n[a] + float(part) * (n[b] - n[a]);
-    n.push_back(normal.isZero(0) ? n[a] : Eigen::Vector3f(normal.normalized()));
+    n.push_back(normal.isZero(0) ? n[a] : normal); // shorter than 1: it goes on as on the whole triangle
     Model& to = *this->To;
     to.sourceVertex.push_back(made);
     to.sourceVertices = made + 1;

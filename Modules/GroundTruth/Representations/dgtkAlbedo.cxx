@@ -11,12 +11,6 @@ namespace dgtk
 
 namespace
 {
-int texelIndex(double coordinate, int size)
-{
-  const double index = std::fmod(std::floor(coordinate * size), size);
-  return std::isfinite(index) ? int(index < 0 ? index + size : index) : 0;
-}
-
 /// Colour of a model's vertices, or of its map of colours, sRGB in [0, 1].
 Eigen::Vector3d vertexColorAt(const Model& model, std::uint32_t triangle, const Eigen::Vector2d& barycentrics)
 {
@@ -49,24 +43,9 @@ const Material* materialOf(const Instance& instance, std::uint32_t triangle)
 Eigen::Vector3d texelAt(
   const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics, int texture)
 {
-  const Model& model = *instance.model;
-  if (texture < 0 || model.uvs.empty() || !model.textures[texture].image)
-  {
-    return Eigen::Vector3d::Ones();
-  }
-  const Image& image = *model.textures[texture].image;
-  const auto& corners = model.triangles[triangle];
-  const Eigen::Vector2d& first = model.uvs[corners[0]];
-  const Eigen::Vector2d uv =
-    first + barycentrics.x() * (model.uvs[corners[1]] - first) + barycentrics.y() * (model.uvs[corners[2]] - first);
-  if (!uv.allFinite() || image.width < 1 || image.height < 1)
-  {
-    return Eigen::Vector3d::Ones();
-  }
-  const int column = texelIndex(uv.x(), image.width);
-  const int row = image.height - 1 - texelIndex(uv.y(), image.height);
-  const std::uint8_t* texel = &image.rgba[(std::size_t(row) * image.width + column) * 4];
-  return Eigen::Vector3d(texel[0], texel[1], texel[2]) / 255;
+  const std::uint8_t* const texel = nearestTexel(*instance.model, triangle, barycentrics, texture);
+  return texel == nullptr ? Eigen::Vector3d::Ones()
+                          : Eigen::Vector3d(Eigen::Vector3d(texel[0], texel[1], texel[2]) / 255);
 }
 
 std::array<std::uint8_t, 3> albedoAt(
