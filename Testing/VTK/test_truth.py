@@ -106,6 +106,26 @@ class Pairs(unittest.TestCase):
             wall.SetPosition(0.6, 0, -0.5)
         self.assertLessEqual({0, 1, 2, 3, 4}, self.follow(renderer, move))
 
+    def test_points_meet_and_part(self):
+        """Triangles without area are none, but the others keep their numbers."""
+        ball, wall = self.actors()
+        points = wall.GetMapper().GetInput().GetPoints()
+        apart, neighbour = points.GetPoint(0), points.GetPoint(1)
+
+        def put(place):
+            points.SetPoint(0, *place)
+            points.Modified()
+        put(neighbour)
+        renderer = scenes.renderer(wall, ball, eye=(0.2, 0.3, 3))
+        together = dgtk.snapshot(renderer, self.SIZE)
+        self.follow(renderer, lambda: put(apart))
+        shown = dgtk.truth(renderer, ["objects", "cells"], size=self.SIZE)
+        _, classes = dgtk.correspond(dgtk.snapshot(renderer, self.SIZE), together)
+        gone = (shown["objects"] == 1) & (shown["cells"] == 0)
+        self.assertGreater(gone.sum(), 10)
+        self.assertEqual(set(classes[gone]), {0})
+        self.assertEqual(set(classes[(shown["objects"] == 1) & ~gone]), {1})
+
     def test_points_of_the_data_move(self):
         ball, wall = self.actors()
         renderer = scenes.renderer(ball, wall, eye=(0.2, 0.3, 3))

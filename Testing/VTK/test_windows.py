@@ -50,9 +50,11 @@ class Colours(unittest.TestCase):
         self.assertLess(refused, 10)
 
     def test_lights_of_every_kind(self):
-        for kind in ("Headlight", "CameraLight", "SceneLight"):
+        turn = vtk.vtkTransform()
+        turn.RotateY(25)
+        for kind, moved in (("Headlight", False), ("Headlight", True), ("CameraLight", False), ("SceneLight", False), ("SceneLight", True)):
             for positional in (False, True):
-                with self.subTest(kind=kind, positional=positional):
+                with self.subTest(kind=kind, moved=moved, positional=positional):
                     renderer = scenes.transforms()
                     renderer.AutomaticLightCreationOff()
                     light = vtk.vtkLight()
@@ -65,6 +67,7 @@ class Colours(unittest.TestCase):
                     light.SetAttenuationValues(0.4, 0.1, 0.1)
                     light.SetColor(1, 0.9, 0.7)
                     light.SetIntensity(0.9)
+                    light.SetTransformMatrix(turn.GetMatrix() if moved else None)
                     renderer.AddLight(light)
                     other = vtk.vtkLight()
                     other.SetLightTypeToSceneLight()

@@ -11,6 +11,7 @@
 #include <vtkActor.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace dgtk
 {
@@ -41,12 +42,39 @@ Eigen::Vector3d pointOf(const Model& model, std::uint32_t triangle, const Eigen:
   return first + place.x() * (p[corners[1]] - first) + place.y() * (p[corners[2]] - first);
 }
 
+/// The triangle of another surface of the same cells: points that move may meet, and the triangle is left out.
+std::optional<std::uint32_t> triangleIn(const SurfaceModel& other, const SurfaceModel& one, std::uint32_t triangle)
+{
+  if (one.leftOut == other.leftOut)
+  {
+    return triangle;
+  }
+  const std::vector<std::uint32_t>& out = one.leftOut;
+  std::size_t before = 0; // of one's left out, by bisection: out[i] - i triangles are before them
+  for (std::size_t end = out.size(); before < end;)
+  {
+    const std::size_t middle = (before + end) / 2;
+    (out[middle] - middle <= triangle ? before : end) = out[middle] - middle <= triangle ? middle + 1 : middle;
+  }
+  const auto number = std::uint32_t(triangle + before);
+  const auto after = std::lower_bound(other.leftOut.begin(), other.leftOut.end(), number);
+  return after != other.leftOut.end() && *after == number
+           ? std::nullopt
+           : std::optional(number - std::uint32_t(after - other.leftOut.begin()));
+}
+
 /// Whether the triangles of two surfaces are of the same cells; glyphs may be copies in one of them.
 bool haveSameCells(const SurfaceModel& one, const SurfaceModel& other)
 {
   if (!one.copies && !other.copies)
   {
-    return one.cells == other.cells;
+    bool same = one.cells.size() + one.leftOut.size() == other.cells.size() + other.leftOut.size();
+    for (std::uint32_t triangle = 0; same && triangle < one.cells.size(); ++triangle)
+    {
+      const std::optional<std::uint32_t> there = triangleIn(other, one, triangle);
+      same = !there || one.cells[triangle] == other.cells[*there];
+    }
+    return same;
   }
   if (one.copies && other.copies)
   {
@@ -126,6 +154,15 @@ private:
       point.place = placeIn(*actor.whole->model, point.triangle, pointOf(*actor.model, hit.triangle, at.barycentrics));
     }
     const FrozenActor& other = this->To.actors[object - 1];
+    if (!other.whole->copies && !actor.whole->copies)
+    {
+      const std::optional<std::uint32_t> there = triangleIn(*other.whole, *actor.whole, point.triangle);
+      if (!there)
+      {
+        return {};
+      }
+      point.triangle = *there;
+    }
     if (!other.parents.empty() && !findShown(other, point))
     {
       return {};

@@ -251,6 +251,7 @@ private:
     const bool finite = p[0].allFinite() && p[1].allFinite() && p[2].allFinite();
     if (!finite || p[0] == p[1] || p[1] == p[2] || p[0] == p[2])
     {
+      this->To.leftOut.push_back(std::uint32_t(this->To.cells.size() + this->To.leftOut.size()));
       return;
     }
     const Eigen::Vector3d flat = this->Kind == Normals::OfTriangles

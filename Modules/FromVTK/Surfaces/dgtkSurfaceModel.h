@@ -24,6 +24,8 @@ struct SurfaceModel
 {
   std::shared_ptr<const Model> model; ///< with copies: of the first one
   std::vector<std::int64_t> cells;    ///< of the mapper's input, one a triangle; with copies, one a copy
+  /// Numbers, in the order of all triangles, of those that were left out for their points; not of copies.
+  std::vector<std::uint32_t> leftOut;
   /// What it is made of instead, in the order of their triangles; null: `model`.
   std::shared_ptr<const std::vector<ModelCopy>> copies;
   std::vector<std::array<std::uint8_t, 4>> tints; ///< R, G, B, A of the copies, or none

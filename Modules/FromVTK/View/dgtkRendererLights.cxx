@@ -47,12 +47,12 @@ LightDescription describe(vtkLight& light, vtkCamera& camera, vtkRenderer& rende
   const bool head = light.LightTypeIsHeadlight() != 0 && follows;
   const bool carried = light.LightTypeIsCameraLight() != 0 && follows;
   vtkMatrix4x4* const matrix = carried ? camera.GetCameraLightTransformMatrix() : light.GetTransformMatrix();
-  to.position = head ? moved(nullptr, camera.GetPosition()) : moved(matrix, light.GetPosition());
-  to.target = head ? moved(nullptr, camera.GetFocalPoint()) : moved(matrix, light.GetFocalPoint());
+  to.position = moved(matrix, head ? camera.GetPosition() : light.GetPosition());
+  to.target = moved(matrix, head ? camera.GetFocalPoint() : light.GetFocalPoint());
   const bool cone = light.GetConeAngle() < wholeCone;
-  to.kind = light.GetPositional() != 0 ? (cone ? LightKind::Spot : LightKind::Point)
-            : head                     ? LightKind::Head
-                                       : LightKind::Directional;
+  to.kind = light.GetPositional() != 0  ? (cone ? LightKind::Spot : LightKind::Point)
+            : head && matrix == nullptr ? LightKind::Head
+                                        : LightKind::Directional;
   const double* const color = light.GetDiffuseColor();
   to.diffuse = Eigen::Vector3d(color[0], color[1], color[2]);
   to.specular = to.diffuse; // VTK has no other for highlights
