@@ -275,6 +275,7 @@ RasterChunk RasterModels::makeChunk(const RasterModel& made, const Part& part, s
   {
     shader.textured = true;
     shader.cutOut = material.cutOut;
+    shader.bounded = !model.textures[std::size_t(material.texture)].repeats;
     chunk.texture = this->textureOf(model.textures[std::size_t(material.texture)].image, material.cutOut);
   }
   chunk.surface = this->Maps.parameters(model, material);

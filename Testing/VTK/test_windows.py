@@ -99,7 +99,11 @@ class Colours(unittest.TestCase):
             renderer = scenes.renderer(made, eye=(0, 0, 2.2))
             self.compare(renderer, unlike=0.01)
             shot = dgtk.snapshot(renderer, SIZE)
-            shown[repeats] = (dgtk.render(shot, "objects") > 0).sum()
+            exact = dgtk.render(shot, ["objects", "color"])
+            shown[repeats] = (exact["objects"] > 0).sum()
+            drawn_by_opengl = dgtk.render(shot, ["objects", "color"], visibility="raster", renderer="vtk")
+            self.assertLess((exact["objects"] != drawn_by_opengl["objects"]).mean(), 0.001)
+            self.assertLess(numpy.abs(exact["color"].astype(int) - drawn_by_opengl["color"]).mean(), 3)
             with tempfile.TemporaryDirectory() as folder:
                 if repeats:
                     shot.save(folder + "/scene.json")

@@ -47,7 +47,8 @@ unsigned int IdPrograms::vertexArray()
 
 const IdPrograms::Program& IdPrograms::program(const ShaderVariant& variant)
 {
-  Program& wanted = this->All[(variant.cutOut ? 1u : 0u) + (variant.pieces ? 2u : 0u) + (variant.peel ? 4u : 0u)];
+  Program& wanted = this->All[(variant.cutOut ? 1u : 0u) + (variant.pieces ? 2u : 0u) + (variant.peel ? 4u : 0u) +
+                              (variant.bounded ? 8u : 0u)];
   if (wanted.name)
   {
     return wanted;

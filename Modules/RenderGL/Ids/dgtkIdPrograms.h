@@ -27,13 +27,13 @@ public:
     int layer = -1;   ///< dgtkLayer
     int first = -1;   ///< dgtkFirstTriangle
   };
-  /// Of `variant`, cutOut, pieces and peel count. Throws MachineError with the compiler's words.
+  /// Of `variant`, cutOut, pieces, peel and bounded count. Throws MachineError with the compiler's words.
   const Program& program(const ShaderVariant& variant);
   /// A vertex array of our own.
   unsigned int vertexArray();
 
 private:
-  std::array<Program, 8> All;
+  std::array<Program, 16> All;
   unsigned int VertexArray = 0;
 };
 

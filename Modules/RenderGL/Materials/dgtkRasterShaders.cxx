@@ -21,6 +21,7 @@ void put(std::string& source, const char* tag, const std::string& text)
 }
 
 /// The texel whose alpha decides: repeated, at full resolution, (0, 0) the lower left one.
+constexpr const char* repeatedTexel = "  texel -= vec2(size) * floor(texel / vec2(size));\n";
 constexpr const char* goneTexel = R"(
 bool dgtkGone(sampler2D picture, vec2 uv)
 {
@@ -74,6 +75,27 @@ vec3 dgtkTexel(sampler2D picture, vec2 uv)
   return sum / probes;
 }
 )";
+
+/// Of a texture that repeats, or whose border goes on.
+std::string goneCode(const ShaderVariant& variant)
+{
+  std::string code = variant.cutOut ? goneTexel : "";
+  if (variant.bounded)
+  {
+    put(code, repeatedTexel, "");
+  }
+  return code;
+}
+
+std::string filterCode(const ShaderVariant& variant)
+{
+  std::string code = variant.samples() ? filteredTexel : "";
+  if (variant.bounded)
+  {
+    put(code, "fract(uv) * size - 0.5", "clamp(uv * size, vec2(0.5), size - 0.5) - 0.5");
+  }
+  return code;
+}
 
 constexpr const char* peeling = R"(
 uniform sampler2D dgtkLayer; // draw, triangle and depth of the layer before; depth 2 before the first
@@ -233,8 +255,8 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   declarations += triangleIn;
   put(vertex, "//VTK::ValuePass::Dec", triangleOut(variant));
   put(vertex, "//VTK::ValuePass::Impl", triangleCode(variant));
-  declarations += variant.samples() ? filteredTexel : "";
-  declarations += variant.cutOut ? goneTexel : "";
+  declarations += filterCode(variant);
+  declarations += goneCode(variant);
   declarations += variant.peel ? peeling : "";
   declarations += variant.collect ? collecting : "";
   if (variant.collect)
@@ -300,7 +322,7 @@ std::string idFragmentShader(const ShaderVariant& variant)
                      "out vec4 dgtkOutput;\n";
   text += variant.cutOut ? "uniform sampler2D actortexture;\nin vec2 tcoordVCVSOutput;\n" : "";
   text += triangleIn;
-  text += variant.cutOut ? goneTexel : "";
+  text += goneCode(variant);
   text += variant.peel ? peeling : "";
   text += "void main()\n{\n";
   text += identity;

@@ -21,6 +21,7 @@ struct ShaderVariant
   bool textured = false;
   bool colored = false; ///< vertices have colours
   bool cutOut = false;
+  bool bounded = false; ///< the texture's border goes on around it, instead of the texture
   bool pieces = false;  ///< the triangle comes from a vertex attribute
   bool peel = false;    ///< fragments up to those of the layer before are not there
   bool collect = false; ///< fragments are appended to a FragmentList
@@ -45,10 +46,10 @@ struct ShaderVariant
   auto key() const
   {
     return std::make_pair(
-      this->lights, std::array<bool, 18>{ this->colored, this->headOnly, this->lightTexture, this->specular,
-                      this->textured, this->cutOut, this->pieces, this->peel, this->collect, this->shadows, this->fog,
-                      this->environment, this->physical, this->normalMap, this->bumpMap, this->metallicRoughnessMap,
-                      this->emissionMap, this->occlusionMap });
+      this->lights, std::array<bool, 19>{ this->bounded, this->colored, this->headOnly, this->lightTexture,
+                      this->specular, this->textured, this->cutOut, this->pieces, this->peel, this->collect,
+                      this->shadows, this->fog, this->environment, this->physical, this->normalMap, this->bumpMap,
+                      this->metallicRoughnessMap, this->emissionMap, this->occlusionMap });
   }
   bool operator==(const ShaderVariant& o) const { return this->key() == o.key(); }
 };
