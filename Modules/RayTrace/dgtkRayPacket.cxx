@@ -151,7 +151,8 @@ void PacketTracer::toMesh(MeshLanes& out) const
 
 /// Whether each hit is far enough from the edges of its triangle, not too edge-on and far enough from the ends of the
 /// range for single precision. In the axes of the mesh: u, v of a hit have the error (error of a position) * (longest
-/// edge) * |direction| / |normal * direction|, with Embree's normal of twice the triangle's area.
+/// edge) * |direction| / |normal * direction|, with Embree's normal of twice the triangle's area, and t the error
+/// (error of a position) * |normal| / |normal * direction|.
 void PacketTracer::findClear(int clear[lanes]) const
 {
   const RTCRay16& ray = this->Packet.ray;
@@ -168,14 +169,21 @@ void PacketTracer::findClear(int clear[lanes]) const
     const float z = at.z[i];
     const float t = ray.tfar[i];
     const float square = x * x + y * y + z * z;
-    const float along = (x * hit.Ng_x[i] + y * hit.Ng_y[i] + z * hit.Ng_z[i]) * at.inverseEdge[i];
+    const float facing = x * hit.Ng_x[i] + y * hit.Ng_y[i] + z * hit.Ng_z[i];
+    const float along = facing * at.inverseEdge[i];
     const float u = hit.u[i];
     const float v = hit.v[i];
     const float w = 1 - u - v;
-    const float error = precision * (t * t * square + at.sizes[i] * at.sizes[i]) * square;
+    const float ofPosition = precision * (t * t * square + at.sizes[i] * at.sizes[i]);
+    const float error = ofPosition * square;
     const float distance = along * along;
+    const float normal = hit.Ng_x[i] * hit.Ng_x[i] + hit.Ng_y[i] * hit.Ng_y[i] + hit.Ng_z[i] * hit.Ng_z[i];
+    const float ofRange = ofPosition * normal;
+    const float fromNear = (t - this->Near) * facing;
+    const float toFar = (this->Far - t) * facing;
     clear[i] = (u > 0) & (v > 0) & (w > 0) & (u * u * distance > error) & (v * v * distance > error) &
-               (w * w * distance > error) & (t > least) & (t < most);
+               (w * w * distance > error) & (t > least) & (t < most) & (fromNear * fromNear > ofRange) &
+               (toFar * toFar > ofRange);
   }
 }
 

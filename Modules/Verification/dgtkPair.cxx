@@ -226,4 +226,16 @@ Target PairTargets::at(int x, int y, const Hit& hit) const
   return target;
 }
 
+double PairTargets::moves(int x, int y, const Hit& hit, const Target& target) const
+{
+  const TimedSight& other = *this->ThePair.timed;
+  if (!other.rolls() || !target.timed)
+  {
+    return 0;
+  }
+  const auto weights = this->Owner.sight(x, y).weights(hit, target.here);
+  return this->ThePair.kind == PairKind::Motion ? other.pointSlack(hit, weights, target.time)
+                                                : other.timeSlack(hit, weights, target.time, 0);
+}
+
 } // namespace dgtk

@@ -65,6 +65,9 @@ public:
   PairTargets(Picture& picture, const Pair& pair);
   Target at(int x, int y) const { return this->at(x, y, this->hit(x, y)); }
   Target at(int x, int y, const Hit& hit) const;
+  /// What a target moves while the time at which a rolling shutter sees it may be off: in pixels, or of a motion in
+  /// scene units.
+  double moves(int x, int y, const Hit& hit, const Target& target) const;
   const Hit& hit(int x, int y) const { return this->Seen.hits[this->Seen.index(x, y)]; }
 
 private:

@@ -203,6 +203,18 @@ class RollingShutters(Case):
         report = json.loads(self.dgtk("verify", self.path("fast"), "--json").stdout)
         self.assertGreater(next(row["count"] for row in report["residuals"] if row["layer"] == "correspondence_rolls"), 0)
 
+    def test_tall_pictures_of_what_moves_fast_are_verified(self):
+        """Where the rounding of a time is more than that of a place."""
+        wall = {"name": "wall", "model": os.path.join(MODELS, "crate.ac"), "scale": [30, 30, 1],
+                "position": {"keys": [[0, [0, 0, -14]], [2, [1, 0.5, -2]], [4, [0, 0, -9]]], "interpolation": "smooth"}}
+        camera = {"name": "tall", "model": "fisheye", "K": [[25, 0, 21], [0, 25, 16], [0, 0, 1]], "distortion": [0.02, -0.004, 0.0006, -5e-5],
+                  "width": 41, "height": 31, "near": 0.5, "far": 50, "position": [0, 0, 6], "orientation": [0, 1, 0, 0],
+                  "rollingShutter": {"duration": 1.7, "direction": "left"}}
+        self.render("tall", {"objects": [wall], "cameras": [camera]}, "sceneflow,flow_forward", "1", "--size", "25x3000",
+                    "--sceneflow-format", "npy", "--flow_forward-format", "npy")
+        report = json.loads(self.dgtk("verify", self.path("tall"), "--json").stdout)
+        self.assertGreater(next(row["count"] for row in report["residuals"] if row["layer"] == "sceneflow"), 0)
+
     def test_bytes_do_not_depend_on_threads_nor_on_what_else_is_asked(self):
         self.save_table()
         layers = "color,depth,objects,flow_forward,alpha,ldi,boxes"

@@ -253,3 +253,32 @@ TEST(RaySource, SurfacesAtNearAndAtFarAreSeen)
     }
   }
 }
+
+// Single precision finds such surfaces anywhere around the place at which rays meet them.
+TEST(RaySource, NothingNearerThanNearIsSeenAtGrazingAngles)
+{
+  ThreadPool pool(1);
+  const auto source = makeRaySource(pool);
+  View view = makeView();
+  view.camera_from_world = Rigid3();
+  view.near = 1;
+  view.far = 100;
+  for (int row = 0; row < view.model->height(); row += 3)
+  {
+    const Eigen::Vector3d direction = view.model->rayThrough({ 30.5, row + 0.5 }).direction;
+    for (const double angle : { 1e-3, 1e-4, 1e-5 })
+    {
+      for (const double met : { 0.9995, 0.99998 })
+      {
+        const double slope = direction.y() / direction.z() - angle;
+        const Eigen::Vector3d first(-50, slope * 0.3 + angle * met, 0.3);
+        const auto state = SceneBuilder().add(makeQuad({ first, { 100, 0, 0 }, { 0, 60 * slope, 60 } })).state();
+        const VisibilityBuffer buffer = traceSource(*source, state, view);
+        for (int x = 0; x < view.model->width(); ++x)
+        {
+          EXPECT_EQ(buffer.at(x, row).object, 0u) << row << ' ' << x << ' ' << angle << ' ' << met;
+        }
+      }
+    }
+  }
+}

@@ -96,8 +96,13 @@ private:
       error =
         std::isnan(difference) ? infinite : std::max(error, difference - this->File.rounding(found[c]) - target.slack);
     }
-    return error / this->scale(target) / this->Owner.eye().farness(target.here.z()) /
-           (this->ThePair.kind == PairKind::Motion ? 1 : this->ThePair.other->eye().farness(target.there.z()));
+    const double unit =
+      this->scale(target) * this->Owner.eye().farness(target.here.z()) *
+      (this->ThePair.kind == PairKind::Motion ? 1 : this->ThePair.other->eye().farness(target.there.z()));
+    // What moves fast, or is seen by many pixels, moves in the time that its own time may be off.
+    return error > motionTolerance * unit && error < infinite
+             ? std::max(0.0, error - this->Targets.moves(x, y, hit, target)) / unit
+             : error / unit;
   }
 
   void derive(int x, int y, const Target& target, double* expected) const

@@ -102,18 +102,29 @@ bool TimedSight::findTime(const Hit& hit, const Eigen::Vector3d& weights, double
   return !this->rolls();
 }
 
-double TimedSight::timeSlack(const Hit& hit, const Eigen::Vector3d& weights, double time, double more) const
+/// Frames.
+double TimedSight::timeRounding(double time) const
 {
   const TimeSpan span =
     this->Table ? this->Table->times() : TimeSpan{ 0, this->Middle->eye().record().rollingShutter.duration };
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  const double slack =
-    more + std::max(timePrecision * (span.last - span.first), rounding * std::abs(this->Instants->frame() + time));
+  return std::max(timePrecision * (span.last - span.first), rounding * std::abs(this->Instants->frame() + time));
+}
+
+double TimedSight::timeSlack(const Hit& hit, const Eigen::Vector3d& weights, double time, double more) const
+{
+  const double slack = more + this->timeRounding(time);
   Eigen::Vector2d before;
   Eigen::Vector2d after;
   return this->placeAt(time - slack, hit, weights, before) && this->placeAt(time + slack, hit, weights, after)
            ? (after - before).norm()
            : 0;
+}
+
+double TimedSight::pointSlack(const Hit& hit, const Eigen::Vector3d& weights, double time) const
+{
+  const double slack = this->timeRounding(time);
+  return (this->pointAt(time + slack, hit, weights) - this->pointAt(time - slack, hit, weights)).norm();
 }
 
 } // namespace dgtk

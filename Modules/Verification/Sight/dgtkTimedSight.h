@@ -42,8 +42,11 @@ public:
   /// Pixels by which the point moves in the time that a file's times may be off: 1e-12 of the shutter's, and rounding;
   /// `more` frames.
   double timeSlack(const Hit& hit, const Eigen::Vector3d& weights, double time, double more) const;
+  /// The same of the point itself, in scene units.
+  double pointSlack(const Hit& hit, const Eigen::Vector3d& weights, double time) const;
 
 private:
+  double timeRounding(double time) const;
   bool placeAt(double time, const Hit& hit, const Eigen::Vector3d& weights, Eigen::Vector2d& pixel) const;
   std::shared_ptr<const Sight> Middle;
   std::shared_ptr<const InstantSource> Instants;
