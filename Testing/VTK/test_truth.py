@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dis
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import dgtk
 import vtk
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import judge
 import scenes
@@ -327,6 +327,16 @@ class Known(unittest.TestCase):
         renderer = scenes.renderer(made, eye=(0, 0, 3))
         texels = vtk_to_numpy(made.GetTexture().GetInput().GetPointData().GetScalars())
 
+        heights = vtk.vtkImageData()
+        heights.SetDimensions(4, 4, 1)
+        heights.GetPointData().SetScalars(numpy_to_vtk(numpy.arange(16.0), deep=1))
+        mapped, table, turn = vtk.vtkTexture(), vtk.vtkLookupTable(), vtk.vtkTransform()
+        mapped.SetInputData(heights)
+        table.SetRange(0, 15)
+        table.Build()
+        mapped.SetLookupTable(table)
+        mapped.SetTransform(turn)
+
         def darken():
             texels[:] //= 2
 
@@ -335,7 +345,8 @@ class Known(unittest.TestCase):
             return numpy.dstack([truth["color"], truth["cells"]])
         seen = look()
         for change in (lambda: made.GetProperty().SetColor(0.9, 0.2, 0.1), lambda: made.GetProperty().SetAmbient(0.4), darken,
-                       lambda: made.GetTexture().InterpolateOff(), lambda: made.SetTexture(None), lambda: quad.SetResolution(2, 3),
+                       lambda: made.GetTexture().InterpolateOff(), lambda: made.SetTexture(mapped), lambda: [table.SetTableValue(i, 1, 1, 1, 1) for i in range(120, 256)],
+                       lambda: turn.Scale(2, 1, 1), lambda: made.SetTexture(None), lambda: quad.SetResolution(2, 3),
                        lambda: made.SetPosition(0.3, 0, 0), lambda: renderer.SetBackground(0.1, 0.2, 0.3)):
             change()
             now = look()

@@ -216,7 +216,9 @@ TEST(LiveMatch, OfARollingShutterIsTheDatasets)
   const LiveScene live(scene, models);
   const MatchView from{ cameraView(scene.cameras[0], 2, 60, 40), 2 };
   const MatchView to{ cameraView(scene.cameras[0], 3, 60, 40), 3 };
+  const auto state = Stage::load(scene)->at(2);
   int hidden = 0;
+  bool laterPart = false;
   for (int row = 1; row < 40; row += 3)
   {
     for (int column = 0; column < 60; column += 2)
@@ -231,9 +233,14 @@ TEST(LiveMatch, OfARollingShutterIsTheDatasets)
       {
         EXPECT_EQ(match.to.pixel.x(), stored.places.pixels.row<double>(row)[2 * column]);
         EXPECT_EQ(match.to.pixel.y(), stored.places.pixels.row<double>(row)[2 * column + 1]);
+        const Part& part = state->instances[match.hit.object - 1].model->parts.at(match.part);
+        EXPECT_LT(match.triangle, part.triangles);
+        EXPECT_EQ(match.triangle + part.firstTriangle, match.hit.triangle);
+        laterPart = laterPart || match.part > 0;
       }
     }
   }
   EXPECT_GT(hidden, 3);
+  EXPECT_TRUE(laterPart);
 }
 } // namespace

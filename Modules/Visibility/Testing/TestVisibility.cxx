@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
+#include "dgtkPixelFilter.h"
 #include "dgtkSyntheticScene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
 
 using dgtk::PixelRect;
 
@@ -128,4 +133,39 @@ TEST(IsCutOut, OnlyMaterialsThatSayIt)
   (*materials)[0].cutOut = false;
   state->instances[0].materials = materials;
   EXPECT_FALSE(cutOutAt(*state, 0.125, 0.75));
+}
+
+/// Mitchell and Netravali 1988 with B = C = 1/3, times 18; Gauss's curve of standard deviation 1/2; Duchon 1979.
+TEST(PixelFilter, HasItsShape)
+{
+  const auto mitchell = [](double x)
+  { return x < 1 ? 21 * x * x * x - 36 * x * x + 16 : -7 * x * x * x + 36 * x * x - 60 * x + 32; };
+  const auto gaussian = [](double x) { return std::exp(-2 * x * x) - std::exp(-4.5); };
+  const auto lanczos = [](double x)
+  { return x == 0 ? 1 : 3 * std::sin(M_PI * x) * std::sin(M_PI * x / 3) / (M_PI * M_PI * x * x); };
+  struct
+  {
+    const char* name;
+    double radius;
+    std::function<double(double)> at;
+  } const shapes[] = { { "box", 0.5, [](double) { return 1; } }, { "triangle", 1, [](double x) { return 1 - x; } },
+    { "gaussian", 1.5, gaussian }, { "mitchell", 2, mitchell }, { "lanczos", 3, lanczos } };
+  for (const auto& shape : shapes)
+  {
+    for (const int samples : { 1, 2, 3, 5 })
+    {
+      int margin = 0;
+      const auto weights = dgtk::pixelFilterWeights(dgtk::pixelFilterFromName(shape.name), samples, margin);
+      ASSERT_EQ(weights.size(), std::size_t((2 * margin + 1) * samples));
+      const std::size_t middle = weights.size() / 2;
+      for (std::size_t i = 0; i < weights.size(); ++i)
+      {
+        const double x = std::abs((double(i) + 0.5) / samples - margin - 0.5);
+        const double centre = std::abs((double(middle) + 0.5) / samples - margin - 0.5);
+        const double expected = x < shape.radius ? shape.at(x) / shape.at(centre) : 0;
+        EXPECT_NEAR(weights[i] / weights[middle], expected, 1e-12) << shape.name << ' ' << samples << ' ' << i;
+      }
+      EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1, 1e-12);
+    }
+  }
 }
