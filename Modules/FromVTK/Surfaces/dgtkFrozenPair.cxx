@@ -45,10 +45,6 @@ Eigen::Vector3d pointOf(const Model& model, std::uint32_t triangle, const Eigen:
 /// The triangle of another surface of the same cells: points that move may meet, and the triangle is left out.
 std::optional<std::uint32_t> triangleIn(const SurfaceModel& other, const SurfaceModel& one, std::uint32_t triangle)
 {
-  if (one.leftOut == other.leftOut)
-  {
-    return triangle;
-  }
   const std::vector<std::uint32_t>& out = one.leftOut;
   std::size_t before = 0; // of one's left out, by bisection: out[i] - i triangles are before them
   for (std::size_t end = out.size(); before < end;)
@@ -68,6 +64,10 @@ bool haveSameCells(const SurfaceModel& one, const SurfaceModel& other)
 {
   if (!one.copies && !other.copies)
   {
+    if (one.leftOut == other.leftOut)
+    {
+      return one.cells == other.cells;
+    }
     bool same = one.cells.size() + one.leftOut.size() == other.cells.size() + other.leftOut.size();
     for (std::uint32_t triangle = 0; same && triangle < one.cells.size(); ++triangle)
     {

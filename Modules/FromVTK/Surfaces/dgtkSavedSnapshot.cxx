@@ -237,8 +237,9 @@ Model withScaledNormals(const Model& from)
 /// Whether a texture of a model is seen beyond its border, which goes on there.
 bool goesOnBeyondBorder(const Model& model)
 {
+  constexpr double rounding = 1e-6;
   const auto isOutside = [&model](std::uint32_t vertex)
-  { return (model.uvs[vertex].array() < 0).any() || (model.uvs[vertex].array() > 1).any(); };
+  { return (model.uvs[vertex].array() < -rounding).any() || (model.uvs[vertex].array() > 1 + rounding).any(); };
   for (const Part& part : model.parts)
   {
     const Material& m = model.materials[std::size_t(part.material)];
