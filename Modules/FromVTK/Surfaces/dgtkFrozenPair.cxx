@@ -45,12 +45,18 @@ Eigen::Vector3d pointOf(const Model& model, std::uint32_t triangle, const Eigen:
 /// The triangle of another surface of the same cells: points that move may meet, and the triangle is left out.
 std::optional<std::uint32_t> triangleIn(const SurfaceModel& other, const SurfaceModel& one, std::uint32_t triangle)
 {
-  const std::vector<std::uint32_t>& out = one.leftOut;
-  std::size_t before = 0; // of one's left out, by bisection: out[i] - i triangles are before them
-  for (std::size_t end = out.size(); before < end;)
+  std::size_t before = 0; // how many of one's left out come before it
+  for (std::size_t end = one.leftOut.size(); before < end;)
   {
     const std::size_t middle = (before + end) / 2;
-    (out[middle] - middle <= triangle ? before : end) = out[middle] - middle <= triangle ? middle + 1 : middle;
+    if (one.leftOut[middle] - middle <= triangle) // so many triangles are before that one
+    {
+      before = middle + 1;
+    }
+    else
+    {
+      end = middle;
+    }
   }
   const auto number = std::uint32_t(triangle + before);
   const auto after = std::lower_bound(other.leftOut.begin(), other.leftOut.end(), number);

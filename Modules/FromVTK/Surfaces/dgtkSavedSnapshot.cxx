@@ -237,6 +237,10 @@ Model withScaledNormals(const Model& from)
 /// Whether a texture of a model is seen beyond its border, which goes on there.
 bool goesOnBeyondBorder(const Model& model)
 {
+  if (model.uvs.empty())
+  {
+    return false;
+  }
   constexpr double rounding = 1e-6;
   const auto isOutside = [&model](std::uint32_t vertex)
   { return (model.uvs[vertex].array() < -rounding).any() || (model.uvs[vertex].array() > 1 + rounding).any(); };
@@ -245,8 +249,7 @@ bool goesOnBeyondBorder(const Model& model)
     const Material& m = model.materials[std::size_t(part.material)];
     const int maps[] = { m.texture, m.normalMap, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap };
     if (std::all_of(std::begin(maps), std::end(maps),
-          [&model](int map) { return map < 0 || model.textures[std::size_t(map)].repeats; }) ||
-        model.uvs.empty())
+          [&model](int map) { return map < 0 || model.textures[std::size_t(map)].repeats; }))
     {
       continue;
     }

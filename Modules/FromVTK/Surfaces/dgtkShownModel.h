@@ -34,6 +34,7 @@ struct ShownModel
 };
 
 /// The triangles that are shown, cut along the planes (Sutherland and Hodgman 1974) in double precision.
+/// Normals at a cut are those between the corners, and so shorter than 1: within, they stay what they were.
 ShownModel shownModel(const std::shared_ptr<const Model>& model, const ShownSurface& shown);
 
 } // namespace dgtk
