@@ -23,6 +23,17 @@ inline std::array<std::uint8_t, 4> colorMapTexel(const Image& map, const Eigen::
   return { texel[0], texel[1], texel[2], texel[3] };
 }
 
+/// The index of the texel at a texture coordinate, of `size` along its axis; 0 where there is no number.
+inline std::size_t wrappedTexel(double coordinate, int size, TextureWrap wrap)
+{
+  const double cell = std::floor(coordinate * size);
+  const double period = wrap == TextureWrap::Mirror ? 2.0 * size : size;
+  double index = wrap == TextureWrap::Clamp ? std::clamp(cell, 0.0, size - 1.0) : std::fmod(cell, period);
+  index = index < 0 ? index + period : index;
+  index = index < size ? index : period - 1 - index;
+  return std::isfinite(index) ? std::size_t(index) : std::size_t(0);
+}
+
 /// The texel of Model::textures[texture] that is nearest to a point of a triangle, R, G, B, A; null where there is no
 /// such texture, picture or coordinate. `barycentrics` of the second and third corner.
 inline const std::uint8_t* nearestTexel(
@@ -32,7 +43,7 @@ inline const std::uint8_t* nearestTexel(
   {
     return nullptr;
   }
-  const bool repeats = model.textures[std::size_t(texture)].repeats;
+  const std::array<TextureWrap, 2>& wrap = model.textures[std::size_t(texture)].wrap;
   const Image& image = *model.textures[std::size_t(texture)].image;
   const auto& corners = model.triangles[triangle];
   const Eigen::Vector2d& first = model.uvs[corners[0]];
@@ -42,14 +53,8 @@ inline const std::uint8_t* nearestTexel(
   {
     return nullptr;
   }
-  const auto within = [repeats](double coordinate, int size)
-  {
-    const double cell = std::floor(coordinate * size);
-    const double index = repeats ? std::fmod(cell, size) : std::clamp(cell, 0.0, size - 1.0);
-    return std::isfinite(index) ? std::size_t(index < 0 ? index + size : index) : std::size_t(0);
-  };
-  const std::size_t row = std::size_t(image.height) - 1 - within(uv.y(), image.height);
-  return &image.rgba[(row * std::size_t(image.width) + within(uv.x(), image.width)) * 4];
+  const std::size_t row = std::size_t(image.height) - 1 - wrappedTexel(uv.y(), image.height, wrap[1]);
+  return &image.rgba[(row * std::size_t(image.width) + wrappedTexel(uv.x(), image.width, wrap[0])) * 4];
 }
 
 /// The colour of a vertex, R, G, B, A, whichever way the model has it; white where it has none.

@@ -41,16 +41,26 @@ enum class TextureFilter
   Nearest ///< the texel
 };
 
+/// What there is of a picture outside [0, 1] of a texture coordinate.
+enum class TextureWrap : std::uint8_t
+{
+  Repeat,
+  Clamp, ///< its border goes on
+  Mirror ///< it repeats, every second time the other way round
+};
+
 /// A texture as the model names it. `image` is null when it was not found or cannot be decoded; a warning of the
 /// model says what was tried. Texture coordinates: (0, 0) is the lower left corner of the picture, (1, 1) the upper
-/// right; outside [0, 1] the picture repeats.
+/// right.
 struct Texture
 {
   std::string name; ///< as written in the model
   std::string path; ///< file that was found, or empty
   std::shared_ptr<const Image> image;
   TextureFilter filter = TextureFilter::Smooth;
-  bool repeats = true; ///< outside [0, 1]; otherwise its border goes on
+  std::array<TextureWrap, 2> wrap{}; ///< along u and v
+
+  bool repeats() const { return this->wrap == std::array<TextureWrap, 2>{}; } ///< along both
 };
 
 /// Colours are display-referred (sRGB) in [0, 1], multiplied with the texture's.
@@ -172,6 +182,10 @@ struct Model
 
   /// Part of a triangle of the model, by binary search. triangle < triangles.size().
   DGTKMODELIO_EXPORT std::uint32_t partOf(std::uint32_t triangle) const;
+  /// Whether the picture of one of `textures` is in no file of its own.
+  bool holds(const Texture& texture) const { return texture.path.empty() || texture.path == this->path; }
+  /// Whether some texture coordinate of a part is outside [0, 1] by more than rounding.
+  DGTKMODELIO_EXPORT bool reachesBeyondPictures(const Part& part) const;
 };
 
 /// Geometry of a deforming model at a model frame; `model.rest` for a rigid one.

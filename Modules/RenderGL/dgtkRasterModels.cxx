@@ -275,7 +275,7 @@ RasterChunk RasterModels::makeChunk(const RasterModel& made, const Part& part, s
   {
     shader.textured = true;
     shader.cutOut = material.cutOut;
-    shader.bounded = !model.textures[std::size_t(material.texture)].repeats;
+    shader.wraps[ShaderVariant::Base] = model.textures[std::size_t(material.texture)].wrap;
     chunk.texture = this->textureOf(model.textures[std::size_t(material.texture)].image, material.cutOut);
   }
   chunk.surface = this->Maps.parameters(model, material);
@@ -285,6 +285,13 @@ RasterChunk RasterModels::makeChunk(const RasterModel& made, const Part& part, s
   shader.metallicRoughnessMap = chunk.surface.metallicRoughnessMap != 0;
   shader.emissionMap = chunk.surface.emissionMap != 0;
   shader.occlusionMap = chunk.surface.occlusionMap != 0;
+  const std::pair<ShaderVariant::Picture, int> maps[] = { { ShaderVariant::Normal, material.normalMap },
+    { ShaderVariant::Bump, material.bumpMap }, { ShaderVariant::MetallicRoughness, material.metallicRoughnessMap },
+    { ShaderVariant::Emission, material.emissionMap }, { ShaderVariant::Occlusion, material.occlusionMap } };
+  for (const auto& [picture, index] : maps)
+  {
+    shader.wraps[picture] = index >= 0 ? model.textures[std::size_t(index)].wrap : shader.wraps[picture];
+  }
   if (chunk.surface.hasMaps() && !shader.textured)
   {
     // VTK passes texture coordinates on where there is a texture.

@@ -99,14 +99,28 @@ std::string fogText(const SceneState& state, double scale, std::vector<std::stri
   return "fog { distance " + povNumber(scale / fog.density) + " color " + povColor(fog.color) + " }\n";
 }
 
+/// Whether the pictures that are written repeat.
+bool isTiled(const Model& model, const Material& material)
+{
+  const int pictures[] = { material.texture, material.bumpMap };
+  return std::all_of(std::begin(pictures), std::end(pictures),
+    [&model](int index) { return index < 0 || model.textures[static_cast<std::size_t>(index)].repeats(); });
+}
+
 void noteMissing(const SceneState& state, std::vector<std::string>& warnings)
 {
   bool physical = false;
   bool normals = false;
   bool colors = false;
+  bool wraps = false;
   for (const Instance& instance : state.instances)
   {
     colors = colors || !instance.model->colors.empty() || instance.model->colorMap;
+    for (const Part& part : instance.model->parts)
+    {
+      const Material& material = povMaterialsOf(instance)[static_cast<std::size_t>(part.material)];
+      wraps = wraps || (!isTiled(*instance.model, material) && instance.model->reachesBeyondPictures(part));
+    }
     for (const Material& material : povMaterialsOf(instance))
     {
       physical = physical || (material.physical && material.physical->wanted);
@@ -124,6 +138,7 @@ void noteMissing(const SceneState& state, std::vector<std::string>& warnings)
   note(state.environment != nullptr, "the environment is not written");
   note(physical, "metallic and roughness are not written");
   note(normals, "normal maps are not written");
+  note(wraps, "textures repeat where the model has a border that goes on, or a mirror");
 }
 
 /// All but the objects.

@@ -64,7 +64,7 @@ std::shared_ptr<const TexturePyramid> ShadedMaterialLibrary::textureOf(const Mod
   }
   const Texture& texture = model.textures[std::size_t(index)];
   const std::shared_ptr<const Image>& image = texture.image;
-  const PictureUse use{ cutOut, texture.filter, texture.repeats };
+  const PictureUse use{ cutOut, texture.filter, texture.wrap };
   KnownTexture& known = this->Textures[{ image.get(), use }];
   std::shared_ptr<const TexturePyramid> pyramid = known.pyramid.lock();
   if (!pyramid || known.image.lock() != image)

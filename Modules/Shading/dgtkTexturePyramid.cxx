@@ -93,6 +93,7 @@ float lastOf(const std::vector<Level>& levels)
 
 TexturePyramid::TexturePyramid(const Image& image, const PictureUse& use)
   : Use(use)
+  , IsTiled(use.wrap == PictureUse().wrap)
 {
   Level finest;
   finest.width = image.width;
@@ -189,16 +190,25 @@ Float4 TexturePyramid::nearest(const Level& level, float u, float v)
 
 inline Float4 TexturePyramid::within(double u, double v, const Level& one, const Level& other) const
 {
-  if (this->Use.repeats)
+  const Float4 tiled = repeated(u, v);
+  if (this->IsTiled)
   {
-    return repeated(u, v);
+    return tiled;
   }
-  const auto inside = [](double coordinate, int size)
+  const auto inside = [&](std::size_t axis, double coordinate, int size)
   {
+    const TextureWrap wrap = this->Use.wrap[axis];
+    if (wrap == TextureWrap::Repeat)
+    {
+      return tiled[axis];
+    }
     const double half = 0.5 / size;
-    return float(coordinate > half ? std::min(coordinate, 1 - half) : half);
+    const double folded =
+      wrap == TextureWrap::Mirror ? std::abs(coordinate - 2 * std::floor(coordinate / 2 + 0.5)) : coordinate;
+    return float(folded > half ? std::min(folded, 1 - half) : half);
   };
-  return float4(inside(u, one.width), inside(v, one.height), inside(u, other.width), inside(v, other.height));
+  return float4(
+    inside(0, u, one.width), inside(1, v, one.height), inside(0, u, other.width), inside(1, v, other.height));
 }
 
 /// Between the picture's own texels.

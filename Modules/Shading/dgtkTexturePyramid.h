@@ -43,11 +43,11 @@ struct PictureUse
 {
   bool cutOut = false; ///< the colours of what is cut out are those beside it
   TextureFilter filter = TextureFilter::Smooth;
-  bool repeats = true;
+  std::array<TextureWrap, 2> wrap{};
 
   bool operator<(const PictureUse& o) const
   {
-    return std::tie(this->cutOut, this->filter, this->repeats) < std::tie(o.cutOut, o.filter, o.repeats);
+    return std::tie(this->cutOut, this->filter, this->wrap) < std::tie(o.cutOut, o.filter, o.wrap);
   }
 };
 
@@ -100,6 +100,7 @@ private:
   Float4 within(double u, double v, const Level& one, const Level& other) const;
 
   PictureUse Use;
+  bool IsTiled; ///< it repeats along both axes
   std::vector<Level> Levels;
 };
 

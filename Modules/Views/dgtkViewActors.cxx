@@ -101,7 +101,10 @@ ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t p
     {
       surface.texture->InterpolateOn();
       surface.texture->SetMaximumAnisotropicFiltering(1); // more is forty times slower without a graphics card
-      surface.texture->RepeatOn();
+      const TextureWrap wrap = instance.model->textures[texture].wrap[0]; // VTK has one for both axes
+      surface.texture->SetWrap(wrap == TextureWrap::Repeat  ? vtkTexture::Repeat
+                               : wrap == TextureWrap::Clamp ? vtkTexture::ClampToEdge
+                                                            : vtkTexture::MirroredRepeat);
     }
   }
   return surface;

@@ -89,10 +89,10 @@ class Colours(unittest.TestCase):
         data = wall.GetOutput()
         data.GetPointData().SetTCoords(numpy_to_vtk(3 * vtk_to_numpy(data.GetPointData().GetTCoords()) - 1, deep=1))
         shown = {}
-        for repeats in (True, False):
+        for wrap in (vtk.vtkTexture.Repeat, vtk.vtkTexture.ClampToEdge, vtk.vtkTexture.MirroredRepeat):
             texture = vtk.vtkTexture()
             texture.SetInputData(image)
-            texture.SetRepeat(repeats)
+            texture.SetWrap(wrap)
             made = scenes.actor(data)
             made.SetTexture(texture)
             made.GetProperty().LightingOff()
@@ -100,18 +100,20 @@ class Colours(unittest.TestCase):
             self.compare(renderer, unlike=0.01)
             shot = dgtk.snapshot(renderer, SIZE)
             exact = dgtk.render(shot, ["objects", "color"])
-            shown[repeats] = (exact["objects"] > 0).sum()
+            shown[wrap] = (exact["objects"] > 0).tobytes()
             drawn_by_opengl = dgtk.render(shot, ["objects", "color"], visibility="raster", renderer="vtk")
             self.assertLess((exact["objects"] != drawn_by_opengl["objects"]).mean(), 0.001)
             self.assertLess(numpy.abs(exact["color"].astype(int) - drawn_by_opengl["color"]).mean(), 3)
             with tempfile.TemporaryDirectory() as folder:
-                if repeats:
-                    shot.save(folder + "/scene.json")
-                else:
+                if wrap == vtk.vtkTexture.MirroredRepeat:
                     with self.assertRaisesRegex(ValueError, "actor-1 has a texture that does not repeat, which its files cannot say"):
                         shot.save(folder + "/scene.json")
                     self.assertEqual(os.listdir(folder), [])
-        self.assertNotEqual(shown[True], shown[False])
+                else:
+                    shot.save(folder + "/scene.json")
+                    saved = dgtk.render(dgtk.load(folder + "/scene.json"), ["objects"])
+                    self.assertTrue((saved["objects"] == exact["objects"]).all(), wrap)
+        self.assertEqual(len(set(shown.values())), 3)
 
     def test_smooth_surfaces_that_are_cut(self):
         cone = vtk.vtkConeSource()
@@ -377,7 +379,7 @@ class Colours(unittest.TestCase):
         def forced(actor):
             actor.GetProperty().SetOpacity(0.5)
             actor.ForceOpaqueOn()
-        for words, make in (("mirrored", lambda a: change(a, Wrap=vtk.vtkTexture.MirroredRepeat)), ("a border", lambda a: change(a, Wrap=vtk.vtkTexture.ClampToBorder)),
+        for words, make in (("a border", lambda a: change(a, Wrap=vtk.vtkTexture.ClampToBorder)),
                             ("multiplied by its alpha", seeThrough), ("interpolated before they are mapped", scalars), ("forced to be opaque", forced),
                             ("replaced shaders", lambda a: a.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", True, "", False))):
             with self.subTest(words), self.assertRaisesRegex(ValueError, words):

@@ -20,11 +20,13 @@ struct Header
   bool hasUvs = false;
   bool hasNumbers = false;
   std::vector<std::string> pictures;
+  std::vector<std::string> wraps;
 };
 
 Header readHeader(std::istream& stream)
 {
   constexpr const char* texture = "comment TextureFile ";
+  constexpr const char* wrap = "comment TextureWrap ";
   Header header;
   std::string line;
   while (std::getline(stream, line) && line != "end_header")
@@ -40,6 +42,11 @@ Header readHeader(std::istream& stream)
     if (line.rfind(texture, 0) == 0)
     {
       header.pictures.push_back(line.substr(std::strlen(texture)));
+      header.wraps.emplace_back();
+    }
+    if (line.rfind(wrap, 0) == 0 && !header.wraps.empty())
+    {
+      header.wraps.back() = line.substr(std::strlen(wrap));
     }
     header.hasUvs = header.hasUvs || line == "property double s";
     header.hasNumbers = header.hasNumbers || line == "property int texnumber";
@@ -85,6 +92,7 @@ ModelPly readModelPly(const std::string& path)
   }
   ModelPly model;
   model.pictures = header.pictures;
+  model.wraps = header.wraps;
   Values values{ path, bytes, std::size_t(stream.tellg()) };
   for (std::size_t i = 0; i < header.vertices; ++i)
   {

@@ -20,6 +20,7 @@ struct ModelPly
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<int> textures; ///< of each triangle: index into `pictures`, -1 for none
   std::vector<std::string> pictures;
+  std::vector<std::string> wraps; ///< of each picture: "clamp mirror" along u and v, or "" where it repeats
 };
 
 /// Throws InputError for a file that is damaged.

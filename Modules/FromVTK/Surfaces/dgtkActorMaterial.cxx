@@ -56,10 +56,9 @@ PieceColors colorsOf(vtkProperty& property, const SurfacePiece& piece)
 
 void refuseTexture(vtkTexture& texture, const Image& image, const std::string& what, Unsupported& unsupported)
 {
-  if (texture.GetRepeat() == 0 &&
-      (texture.GetWrap() == vtkTexture::MirroredRepeat || texture.GetWrap() == vtkTexture::ClampToBorder))
+  if (texture.GetRepeat() == 0 && texture.GetWrap() == vtkTexture::ClampToBorder)
   {
-    unsupported.add(what + ": a texture that is mirrored, or has a border, around itself");
+    unsupported.add(what + ": a texture that has a border around itself");
   }
   if (image.hasAlpha && texture.GetPremultipliedAlpha())
   {
@@ -100,7 +99,9 @@ int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsup
   made.filter = texture.GetMipmap()             ? TextureFilter::Smooth
                 : texture.GetInterpolate() != 0 ? TextureFilter::Linear
                                                 : TextureFilter::Nearest;
-  made.repeats = texture.GetRepeat() != 0;
+  made.wrap.fill(texture.GetRepeat() != 0                          ? TextureWrap::Repeat
+                 : texture.GetWrap() == vtkTexture::MirroredRepeat ? TextureWrap::Mirror
+                                                                   : TextureWrap::Clamp);
   model.textures.push_back(made);
   return int(model.textures.size()) - 1;
 }

@@ -109,7 +109,10 @@ private:
               rowOf("Ks", m.specular) + "Ns " + shortest(m.shininess) + "\nd " + shortest(m.opacity) + '\n';
       if (m.texture >= 0 || this->MapIsTexture)
       {
-        text += "map_Kd " + this->picture(m.texture >= 0 ? std::size_t(m.texture) : this->From.textures.size()) + '\n';
+        const bool clamped =
+          m.texture >= 0 && this->From.textures[std::size_t(m.texture)].wrap[0] == TextureWrap::Clamp;
+        text += std::string("map_Kd ") + (clamped ? "-clamp on " : "") +
+                this->picture(m.texture >= 0 ? std::size_t(m.texture) : this->From.textures.size()) + '\n';
       }
     }
     return text;
@@ -234,44 +237,31 @@ Model withScaledNormals(const Model& from)
   return model;
 }
 
-/// Whether a texture of a model is seen beyond its border, which goes on there.
-bool goesOnBeyondBorder(const Model& model)
+/// Whether a texture of a model is seen beyond its border where its files cannot say what is there: an OBJ's library
+/// says where a border goes on, of the base texture alone.
+bool isLostBeyondBorder(const Model& model)
 {
-  if (model.uvs.empty())
-  {
-    return false;
-  }
-  constexpr double rounding = 1e-6;
-  const auto isOutside = [&model](std::uint32_t vertex)
-  { return (model.uvs[vertex].array() < -rounding).any() || (model.uvs[vertex].array() > 1 + rounding).any(); };
-  for (const Part& part : model.parts)
-  {
-    const Material& m = model.materials[std::size_t(part.material)];
-    const int maps[] = { m.texture, m.normalMap, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap };
-    if (std::all_of(std::begin(maps), std::end(maps),
-          [&model](int map) { return map < 0 || model.textures[std::size_t(map)].repeats; }))
+  return std::any_of(model.parts.begin(), model.parts.end(),
+    [&model](const Part& part)
     {
-      continue;
-    }
-    const auto first = model.triangles.begin() + std::ptrdiff_t(part.firstTriangle);
-    if (std::any_of(first, first + std::ptrdiff_t(part.triangles),
-          [&](const auto& corners) { return std::any_of(corners.begin(), corners.end(), isOutside); }))
-    {
-      return true;
-    }
-  }
-  return false;
+      const Material& m = model.materials[std::size_t(part.material)];
+      const int maps[] = { m.texture, m.normalMap, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap };
+      const bool clamped = m.texture >= 0 && model.textures[std::size_t(m.texture)].wrap[0] == TextureWrap::Clamp;
+      return !std::all_of(std::begin(maps) + (clamped ? 1 : 0), std::end(maps),
+               [&model](int map) { return map < 0 || model.textures[std::size_t(map)].repeats(); }) &&
+             model.reachesBeyondPictures(part);
+    });
 }
 
 void refuseBorders(const FrozenView& view)
 {
   for (const FrozenActor& actor : view.actors)
   {
-    const bool goesOn = actor.whole->copies ? std::any_of(actor.whole->copies->begin(), actor.whole->copies->end(),
+    const bool isLost = actor.whole->copies ? std::any_of(actor.whole->copies->begin(), actor.whole->copies->end(),
                                                 [](const ModelCopy& copy)
-                                                { return copy.firstInPart == 0 && goesOnBeyondBorder(*copy.model); })
-                                            : goesOnBeyondBorder(*actor.model);
-    if (goesOn)
+                                                { return copy.firstInPart == 0 && isLostBeyondBorder(*copy.model); })
+                                            : isLostBeyondBorder(*actor.model);
+    if (isLost)
     {
       throw InputError("VTK scene", 0, actor.name + " has a texture that does not repeat, which its files cannot say",
         "texture coordinates from 0 to 1, or a texture that repeats");

@@ -40,7 +40,7 @@ bool equalImages(const std::shared_ptr<const Image>& a, const std::shared_ptr<co
 
 bool equalTextures(const Texture& a, const Texture& b)
 {
-  return a.filter == b.filter && a.repeats == b.repeats && equalImages(a.image, b.image);
+  return a.filter == b.filter && a.wrap == b.wrap && equalImages(a.image, b.image);
 }
 
 bool equalParts(const Part& a, const Part& b)

@@ -41,6 +41,7 @@ enum ChunkId : std::uint16_t
   SelfIllumination = 0xa084,
   TextureMap = 0xa200,
   TextureName = 0xa300,
+  TextureTiling = 0xa351,
   TextureScaleV = 0xa354,
   TextureScaleU = 0xa356,
   TextureOffsetU = 0xa358,
@@ -64,6 +65,7 @@ struct MappedMaterial
   int material = -1;
   Eigen::Vector2d scale{ 1, 1 };
   Eigen::Vector2d offset{ 0, 0 };
+  TextureWrap wrap = TextureWrap::Repeat;
 };
 
 class Reader3ds
@@ -261,7 +263,7 @@ private:
       });
     m.specular *= strength;
     m.emission = m.diffuse * selfIllumination;
-    m.texture = this->Builder.addTexture(texture);
+    m.texture = this->Builder.addTexture(texture, {}, {}, { mapped.wrap, mapped.wrap });
     mapped.material = this->Builder.addMaterial(m);
     ++this->Builder.model().declaredMaterials;
     this->Materials.emplace(m.name, mapped); // of two with one name the first is meant
@@ -277,6 +279,16 @@ private:
         if (c.id == TextureName)
         {
           name = this->text(c, at);
+        }
+        else if (c.id == TextureTiling)
+        {
+          constexpr unsigned mirrors = 2;
+          constexpr unsigned once = 16; // the material's colour around it would be meant
+          this->need(c, c.begin, 2, "texture placements");
+          const unsigned flags = this->In.u16(c.begin);
+          mapped.wrap = (flags & mirrors) != 0 ? TextureWrap::Mirror
+                        : (flags & once) != 0  ? TextureWrap::Clamp
+                                               : TextureWrap::Repeat;
         }
         else if (c.id == TextureScaleU || c.id == TextureScaleV)
         {

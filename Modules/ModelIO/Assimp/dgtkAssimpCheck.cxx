@@ -35,6 +35,7 @@ void check(const import::Mesh& mesh, std::size_t nodes)
   require(vertices < 0xffffffffu, "too many vertices");
   require(mesh.normals.empty() || mesh.normals.size() == vertices, "normals and vertices do not match");
   require(mesh.uvs.empty() || mesh.uvs.size() == vertices, "texture coordinates and vertices do not match");
+  require(mesh.colors.empty() || mesh.colors.size() == vertices, "colours and vertices do not match");
   std::uint64_t corners = 0;
   for (const std::uint32_t size : mesh.faceSizes)
   {

@@ -257,7 +257,7 @@ void convert(const aiScene& from, bool gltf, double unit, Scene& to)
   for (unsigned i = 0; i < from.mNumMeshes; ++i)
   {
     to.meshes.push_back(converted(from, *from.mMeshes[i], nodes));
-    colored = colored || colorsVary(*from.mMeshes[i]);
+    colored = colored || (!gltf && colorsVary(*from.mMeshes[i]));
   }
   if (colored)
   {

@@ -1,226 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAssimpGltf.h"
 
-#include <nlohmann/json.hpp>
+#include "dgtkGltfFile.h"
+#include "dgtkGltfMeshes.h"
+#include "dgtkGltfPlacement.h"
 
 #include <algorithm>
-#include <cstring>
-#include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 
 namespace dgtk::import
 {
 
 namespace
 {
-using Json = nlohmann::json;
-namespace fs = std::filesystem;
-
-constexpr std::size_t mostGltfNodes = 1'000'000;
-
-[[noreturn]] void fail(const char* what) { throw std::runtime_error(what); }
-
-std::size_t littleWord(const std::string& bytes, std::size_t at)
-{
-  std::size_t value = 0;
-  for (std::size_t i = 4; i-- > 0;)
-  {
-    value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
-  }
-  return value;
-}
-
-/// RFC 4648
-std::string fromBase64(const std::string& text, std::size_t begin)
-{
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (std::size_t i = begin; i < text.size() && text[i] != '='; ++i)
-  {
-    const std::size_t digit = digits.find(text[i]);
-    if (digit == std::string::npos)
-    {
-      fail("a buffer is not base64");
-    }
-    group = group << 6 | static_cast<std::uint32_t>(digit);
-    bits += 6;
-    if (bits >= 8)
-    {
-      bits -= 8;
-      bytes += static_cast<char>(group >> bits & 255);
-    }
-  }
-  return bytes;
-}
-
-class GltfFile
-{
-public:
-  GltfFile(const std::string& path, const ReadContents& contentsOf)
-    : Folder(fs::path(path).parent_path())
-    , ContentsOf(contentsOf)
-  {
-    const std::string bytes = contentsOf(path);
-    if (bytes.compare(0, 4, "glTF") != 0)
-    {
-      this->Root = Json::parse(bytes);
-      return;
-    }
-    const std::size_t length = littleWord(bytes, 12);
-    this->Root = Json::parse(bytes.substr(20, length));
-    const std::size_t binary = 20 + (length + 3) / 4 * 4;
-    if (binary + 8 <= bytes.size())
-    {
-      this->Binary = bytes.substr(binary + 8, littleWord(bytes, binary));
-    }
-  }
-
-  const Json& root() const { return this->Root; }
-
-  /// Item `index` of a list of the file.
-  const Json& item(const char* list, std::size_t index) const { return this->Root.at(list).at(index); }
-
-  /// All components of an accessor, normalised integers in [-1, 1].
-  std::vector<double> numbers(std::size_t index, std::size_t components)
-  {
-    const Json& accessor = this->item("accessors", index);
-    static const std::map<std::string, std::size_t> widths = { { "SCALAR", 1 }, { "VEC2", 2 }, { "VEC3", 3 },
-      { "VEC4", 4 }, { "MAT4", 16 } };
-    if (accessor.contains("sparse") || widths.at(accessor.at("type")) != components)
-    {
-      fail("an accessor is sparse or of an unexpected type");
-    }
-    const Json& view = this->item("bufferViews", accessor.at("bufferView"));
-    const std::string& buffer = this->buffer(view.at("buffer"));
-    const int type = accessor.at("componentType");
-    const std::size_t size = type == 5126 || type == 5125 ? 4 : type == 5122 || type == 5123 ? 2 : 1;
-    const std::size_t count = accessor.at("count");
-    const std::size_t stride = view.value("byteStride", size * components);
-    const std::size_t begin = view.value("byteOffset", std::size_t(0)) + accessor.value("byteOffset", std::size_t(0));
-    if (count > buffer.size() || stride > 4096 || begin > buffer.size() ||
-        (count > 0 && (count - 1) * stride + size * components > buffer.size() - begin))
-    {
-      fail("an accessor reaches beyond its buffer");
-    }
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < count * components; ++i)
-    {
-      numbers.push_back(number(buffer.data() + begin + i / components * stride + i % components * size, type));
-    }
-    return numbers;
-  }
-
-private:
-  static double number(const char* from, int type)
-  {
-    const auto as = [from](auto value)
-    {
-      std::memcpy(&value, from, sizeof value);
-      return static_cast<double>(value);
-    };
-    switch (type)
-    {
-      case 5120:
-        return std::max(as(std::int8_t(0)) / 127, -1.0);
-      case 5121:
-        return as(std::uint8_t(0)) / 255;
-      case 5122:
-        return std::max(as(std::int16_t(0)) / 32767, -1.0);
-      case 5123:
-        return as(std::uint16_t(0)) / 65535;
-      case 5126:
-        return as(float(0));
-      default:
-        fail("an accessor is of an unexpected type");
-    }
-  }
-
-  const std::string& buffer(std::size_t index)
-  {
-    const auto known = this->Buffers.find(index);
-    if (known != this->Buffers.end())
-    {
-      return known->second;
-    }
-    const Json& buffer = this->item("buffers", index);
-    const std::string uri = buffer.value("uri", "");
-    const std::size_t comma = uri.find(',');
-    std::string& bytes = this->Buffers[index];
-    bytes = uri.empty()                  ? this->Binary
-            : uri.rfind("data:", 0) == 0 ? fromBase64(uri, comma == std::string::npos ? uri.size() : comma + 1)
-                                         : this->ContentsOf((this->Folder / uri).string());
-    return bytes;
-  }
-
-  fs::path Folder;
-  ReadContents ContentsOf;
-  Json Root;
-  std::string Binary;
-  std::map<std::size_t, std::string> Buffers;
-};
-
-/// Node of the file -> node of the scene, by the shape of the tree: names need not be unique.
-class NodeMatch
-{
-public:
-  NodeMatch(const GltfFile& file, const Scene& scene)
-    : File(file)
-    , Whole(scene)
-    , Children(scene.nodes.size())
-  {
-    for (std::size_t i = 1; i < scene.nodes.size(); ++i)
-    {
-      this->Children[static_cast<std::size_t>(scene.nodes[i].parent)].push_back(i);
-    }
-    const Json& roots = file.item("scenes", file.root().value("scene", std::size_t(0))).at("nodes");
-    if (roots.size() == 1)
-    {
-      this->match(roots[0], 0);
-      return;
-    }
-    this->matchAll(roots, this->Children[0]);
-  }
-
-  std::int32_t of(std::size_t node) const
-  {
-    const auto found = this->Index.find(node);
-    return found == this->Index.end() ? noIndex : found->second;
-  }
-
-private:
-  void match(std::size_t node, std::size_t index)
-  {
-    const Json& from = this->File.item("nodes", node);
-    if (this->Index.size() > mostGltfNodes || !this->Index.emplace(node, static_cast<std::int32_t>(index)).second)
-    {
-      fail("a node has two parents");
-    }
-    const std::string name = from.value("name", "");
-    if (!name.empty() && name != this->Whole.nodes[index].name)
-    {
-      fail("nodes are not as expected");
-    }
-    this->matchAll(from.value("children", Json::array()), this->Children[index]);
-  }
-  void matchAll(const Json& nodes, const std::vector<std::size_t>& indices)
-  {
-    if (nodes.size() != indices.size())
-    {
-      fail("nodes are not as expected");
-    }
-    for (std::size_t i = 0; i < indices.size(); ++i)
-    {
-      this->match(nodes[i], indices[i]);
-    }
-  }
-
-  const GltfFile& File;
-  const Scene& Whole;
-  std::vector<std::vector<std::size_t>> Children;
-  std::map<std::size_t, std::int32_t> Index;
-};
+using Json = GltfFile::Json;
 
 /// Times and rows of one sampler; a spline's rows come three a key.
 struct Sampler
@@ -250,12 +45,12 @@ Sampler readSampler(GltfFile& file, const Json& from, std::size_t components)
   const std::size_t rows = sampler.times.size() * (sampler.interpolation == Interpolation::Cubic ? 3 : 1);
   if (rows == 0 || sampler.rows.size() % rows != 0 || sampler.rows.empty())
   {
-    fail("keys and values of an animation do not match");
+    GltfFile::fail("keys and values of an animation do not match");
   }
   sampler.width = sampler.rows.size() / rows;
   if (components != 1 && sampler.width != components)
   {
-    fail("keys and values of an animation do not match");
+    GltfFile::fail("keys and values of an animation do not match");
   }
   return sampler;
 }
@@ -416,31 +211,63 @@ void repairJoints(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
   }
 }
 
-void warnOfAnimations(Scene& scene, const char* why)
+void repairMotion(GltfFile& file, const NodeMatch& nodes, Scene& scene)
 {
-  if (!scene.animations.empty())
+  repairJoints(file, nodes, scene);
+  if (!file.root().contains("animations"))
   {
-    scene.warnings.push_back(std::string("animations are taken from the importer, without steps and splines: ") + why);
+    return;
+  }
+  std::vector<Animation> animations;
+  for (const Json& animation : file.root().at("animations"))
+  {
+    animations.push_back(readAnimation(file, animation, nodes));
+  }
+  scene.animations = std::move(animations);
+}
+
+/// A list of names at the top of the file.
+std::set<std::string> extensionsOf(const GltfFile& file, const char* list)
+{
+  std::set<std::string> names;
+  for (const Json& name : file.root().value(list, Json::array()))
+  {
+    names.insert(name.is_string() ? name.get<std::string>() : std::string());
+  }
+  return names;
+}
+
+/// Whether a text is somewhere in a list of the file.
+bool stands(const GltfFile& file, const char* list, const char* text)
+{
+  return file.root().value(list, Json::array()).dump().find(text) != std::string::npos;
+}
+
+/// What is packed in a way that is not read would be a model of other triangles.
+void requireExtension(const std::string& name, Scene& scene)
+{
+  const std::set<std::string> packing{ "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+    "KHR_meshopt_compression", "EXT_mesh_gpu_instancing" };
+  const std::set<std::string> known{ textureTransform, "KHR_mesh_quantization", "KHR_lights_punctual",
+    "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness" };
+  if (packing.count(name) > 0 && scene.error.empty())
+  {
+    scene.error = "needs the glTF extension " + name + ", which is not read";
+  }
+  else if (known.count(name) == 0)
+  {
+    scene.warnings.push_back("the glTF extension \"" + name.substr(0, 100) + "\", which the file needs, is not read");
   }
 }
-} // namespace
 
-void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& scene)
+/// What went wrong, or "".
+template <class Step>
+std::string problemOf(const Step& step)
 {
   try
   {
-    GltfFile file(path, contentsOf);
-    const NodeMatch nodes(file, scene);
-    repairJoints(file, nodes, scene);
-    if (file.root().contains("animations"))
-    {
-      std::vector<Animation> animations;
-      for (const Json& animation : file.root().at("animations"))
-      {
-        animations.push_back(readAnimation(file, animation, nodes));
-      }
-      scene.animations = std::move(animations);
-    }
+    step();
+    return {};
   }
   catch (const std::bad_alloc&)
   {
@@ -448,11 +275,44 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   }
   catch (const Json::exception&)
   {
-    warnOfAnimations(scene, "something of the file is missing or of an unexpected type");
+    return "something of the file is missing or of an unexpected type";
   }
   catch (const std::exception& error)
   {
-    warnOfAnimations(scene, error.what());
+    return error.what();
+  }
+}
+} // namespace
+
+void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& scene)
+{
+  std::optional<GltfFile> file;
+  std::optional<NodeMatch> nodes;
+  const std::string problem = problemOf(
+    [&]
+    {
+      file.emplace(path, contentsOf);
+      nodes.emplace(*file, scene);
+    });
+  const std::string ofMotion = nodes ? problemOf([&] { repairMotion(*file, *nodes, scene); }) : problem;
+  const std::string ofMeshes = nodes ? problemOf([&] { repairMeshes(*file, *nodes, scene); }) : problem;
+  if (!ofMotion.empty() && !scene.animations.empty())
+  {
+    scene.warnings.push_back("animations are taken from the importer, without steps and splines: " + ofMotion);
+  }
+  const std::set<std::string> used = file ? extensionsOf(*file, "extensionsUsed") : std::set<std::string>();
+  if (!ofMeshes.empty() && used.count("KHR_mesh_quantization") > 0)
+  {
+    scene.error = "its quantized vertices cannot be read: " + ofMeshes;
+  }
+  else if (!ofMeshes.empty() && file &&
+           (stands(*file, "meshes", "\"COLOR_0\"") || stands(*file, "materials", textureTransform)))
+  {
+    scene.warnings.push_back("colours of vertices and places of textures do not count: " + ofMeshes);
+  }
+  for (const std::string& extension : file ? extensionsOf(*file, "extensionsRequired") : std::set<std::string>())
+  {
+    requireExtension(extension, scene);
   }
 }
 

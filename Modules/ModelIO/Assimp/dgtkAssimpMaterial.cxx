@@ -36,15 +36,34 @@ double number(const aiMaterial& from, const char* key, double otherwise)
   return from.Get(key, 0, 0, value) == aiReturn_SUCCESS ? static_cast<double>(value) : otherwise;
 }
 
+bool hasNumber(const aiMaterial& from, const char* key)
+{
+  ai_real value = 0;
+  return from.Get(key, 0, 0, value) == aiReturn_SUCCESS;
+}
+
+Wrap wrapOf(const aiMaterial& from, const char* key, aiTextureType type)
+{
+  int mode = aiTextureMapMode_Wrap;
+  from.Get(key, type, 0, mode);
+  return mode == aiTextureMapMode_Wrap ? Wrap::Repeat : mode == aiTextureMapMode_Mirror ? Wrap::Mirror : Wrap::Clamp;
+}
+
+Map mapOf(const aiMaterial& from, aiTextureType type)
+{
+  aiString name;
+  if (from.GetTexture(type, 0, &name) != aiReturn_SUCCESS)
+  {
+    return {};
+  }
+  return { name.C_Str(), { wrapOf(from, "$tex.mapmodeu", type), wrapOf(from, "$tex.mapmodev", type) } };
+}
+
 void readPicture(const aiMaterial& from, Material& to)
 {
   for (const aiTextureType type : pictureTypes)
   {
-    aiString name;
-    if (to.texture.empty() && from.GetTexture(type, 0, &name) == aiReturn_SUCCESS)
-    {
-      to.texture = name.C_Str();
-    }
+    to.texture = to.texture.name.empty() ? mapOf(from, type) : to.texture;
   }
 }
 
@@ -75,10 +94,34 @@ void fromMetalRoughness(const aiMaterial& from, Material& to)
   to.opacity = base.a;
 }
 
-std::string pictureOf(const aiMaterial& from, aiTextureType type)
+/// KHR_materials_pbrSpecularGlossiness, as a Phong material.
+void fromSpecularGlossiness(const aiMaterial& from, Material& to)
 {
-  aiString name;
-  return from.GetTexture(type, 0, &name) == aiReturn_SUCCESS ? std::string(name.C_Str()) : std::string();
+  aiColor4D diffuse(1, 1, 1, 1);
+  from.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+  aiColor4D specular(1, 1, 1, 1);
+  from.Get(AI_MATKEY_COLOR_SPECULAR, specular);
+  const double gloss = std::clamp(number(from, "$mat.glossinessFactor", 1), 0.0, 1.0);
+  to.physical = 0;
+  for (unsigned i = 0; i < 3; ++i)
+  {
+    to.diffuse[i] = portable::srgbFromLinear(double(diffuse[i]));
+    to.ambient[i] = 0.2 * to.diffuse[i];
+    to.specular[i] = portable::srgbFromLinear(double(specular[i]) * gloss);
+  }
+  const double alpha = std::max((1 - gloss) * (1 - gloss), 0.1);
+  to.shininess = std::clamp(2 / (alpha * alpha) - 2, 0.0, 128.0);
+  to.opacity = diffuse.a;
+}
+
+/// KHR_materials_unlit: its colour, whatever the light.
+void makeUnlit(Material& to)
+{
+  to.emission = to.diffuse;
+  to.ambient = to.diffuse = to.specular = { 0, 0, 0 };
+  to.physical = 0;
+  to.shininess = 0;
+  to.emissionMap = {};
 }
 
 /// A property of the material's first texture of a type.
@@ -90,10 +133,10 @@ double ofPicture(const aiMaterial& from, const char* key, aiTextureType type, do
 
 void readMaps(const aiMaterial& from, Material& to)
 {
-  to.normalMap = pictureOf(from, aiTextureType_NORMALS);
-  to.metallicRoughnessMap = pictureOf(from, aiTextureType_UNKNOWN); // where Assimp 5 keeps it
-  to.emissionMap = pictureOf(from, aiTextureType_EMISSIVE);
-  to.occlusionMap = pictureOf(from, aiTextureType_LIGHTMAP);
+  to.normalMap = mapOf(from, aiTextureType_NORMALS);
+  to.metallicRoughnessMap = mapOf(from, aiTextureType_UNKNOWN); // where Assimp 5 keeps it
+  to.emissionMap = mapOf(from, aiTextureType_EMISSIVE);
+  to.occlusionMap = mapOf(from, aiTextureType_LIGHTMAP);
   to.normalScale = ofPicture(from, "$tex.scale", aiTextureType_NORMALS, 1);
   to.occlusionStrength = std::clamp(ofPicture(from, "$tex.strength", aiTextureType_LIGHTMAP, 1), 0.0, 1.0);
 }
@@ -121,8 +164,17 @@ Material converted(const aiMaterial& from, bool gltf)
   if (gltf)
   {
     fromMetalRoughness(from, to);
+    if (hasNumber(from, "$mat.glossinessFactor"))
+    {
+      fromSpecularGlossiness(from, to);
+    }
     readMaps(from, to);
     readAlpha(from, to);
+    int shading = 0;
+    if (from.Get(AI_MATKEY_SHADING_MODEL, shading) == aiReturn_SUCCESS && shading == aiShadingMode_Unlit)
+    {
+      makeUnlit(to);
+    }
     return to;
   }
   readColor(from, "$clr.ambient", to.ambient);
@@ -194,11 +246,12 @@ void convertMaterials(const aiScene& from, bool gltf, Scene& to)
     // pictures that the file holds are also named by their file name
     for (Material& material : to.materials)
     {
-      for (std::string* name : material.pictures())
+      for (Map* map : { &material.texture, &material.normalMap, &material.metallicRoughnessMap, &material.emissionMap,
+             &material.occlusionMap })
       {
-        if (!name->empty() && *name == to.textures.back().name)
+        if (!map->name.empty() && map->name == to.textures.back().name)
         {
-          *name = "*" + std::to_string(i);
+          map->name = "*" + std::to_string(i);
         }
       }
     }

@@ -85,6 +85,11 @@ public:
       this->Builder.warn(warning);
     }
     this->collect();
+    if (std::any_of(this->Posed.begin(), this->Posed.end(),
+          [this](const PosedMesh& posed) { return !this->Scene->meshes[posed.mesh].colors.empty(); }))
+    {
+      this->Builder.setHasColors();
+    }
     const AssimpDeformation whole(this->Scene, this->Posed);
     const bool moves = whole.moves();
     if (this->Format != "gltf" || moves)
@@ -184,6 +189,7 @@ private:
       corner.u = mesh.uvs[vertex][0];
       corner.v = mesh.uvs[vertex][1];
     }
+    corner.color = mesh.colors.empty() ? corner.color : mesh.colors[vertex];
     return corner;
   }
 

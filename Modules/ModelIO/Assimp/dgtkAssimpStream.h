@@ -26,6 +26,20 @@ enum class AlphaMode : std::int32_t
   Blend
 };
 
+enum class Wrap : std::int32_t
+{
+  Repeat,
+  Clamp,
+  Mirror
+};
+
+/// A picture as a material uses it.
+struct Map
+{
+  std::string name;           ///< file name, "*N" for embedded texture N, or ""
+  std::array<Wrap, 2> wrap{}; ///< along u and v
+};
+
 struct Material
 {
   std::string name;
@@ -38,18 +52,18 @@ struct Material
   std::int32_t twoSided = 0;
   AlphaMode alpha = AlphaMode::Unsaid;
   double alphaCutoff = 0.5;
-  std::string texture;       ///< file name, "*N" for embedded texture N, or ""
+  Map texture;
   std::int32_t physical = 0; ///< metallic and roughness count
   double metallic = 0;
   double roughness = 1;
   double normalScale = 1;
   double occlusionStrength = 1;
-  std::string normalMap; ///< named as `texture`
-  std::string metallicRoughnessMap;
-  std::string emissionMap;
-  std::string occlusionMap;
+  Map normalMap;
+  Map metallicRoughnessMap;
+  Map emissionMap;
+  Map occlusionMap;
 
-  std::array<std::string*, 5> pictures()
+  std::array<const Map*, 5> maps() const
   {
     return { &this->texture, &this->normalMap, &this->metallicRoughnessMap, &this->emissionMap, &this->occlusionMap };
   }
@@ -85,10 +99,11 @@ struct Mesh
   std::string name;
   std::int32_t material = 0;
   std::vector<Float3> positions;
-  std::vector<Float3> normals;             ///< one per position, or none
-  std::vector<std::array<float, 2>> uvs;   ///< one per position, or none; origin lower left
-  std::vector<std::uint32_t> faceSizes;    ///< corners of each face: 1 point, 2 line, 3 or more polygon
-  std::vector<std::uint32_t> faceVertices; ///< all faces, one after the other
+  std::vector<Float3> normals;                     ///< one per position, or none
+  std::vector<std::array<float, 2>> uvs;           ///< one per position, or none; origin lower left
+  std::vector<std::array<std::uint8_t, 4>> colors; ///< one per position, or none: R, G, B (sRGB), A
+  std::vector<std::uint32_t> faceSizes;            ///< corners of each face: 1 point, 2 line, 3 or more polygon
+  std::vector<std::uint32_t> faceVertices;         ///< all faces, one after the other
   std::vector<Bone> bones;
   std::vector<Target> targets;
 };
@@ -163,6 +178,11 @@ struct Scene
 };
 
 template <class A>
+void io(A& a, Map& m)
+{
+  a(m.name), a(m.wrap);
+}
+template <class A>
 void io(A& a, Material& m)
 {
   a(m.name), a(m.ambient), a(m.diffuse), a(m.specular), a(m.emission), a(m.shininess), a(m.opacity), a(m.twoSided);
@@ -188,7 +208,7 @@ void io(A& a, Target& t)
 template <class A>
 void io(A& a, Mesh& m)
 {
-  a(m.name), a(m.material), a(m.positions), a(m.normals), a(m.uvs), a(m.faceSizes), a(m.faceVertices);
+  a(m.name), a(m.material), a(m.positions), a(m.normals), a(m.uvs), a(m.colors), a(m.faceSizes), a(m.faceVertices);
   a(m.bones), a(m.targets);
 }
 template <class A>

@@ -21,6 +21,17 @@ std::string unescaped(const std::string& name)
   return plain == name ? std::string() : plain;
 }
 
+std::array<TextureWrap, 2> wrapOf(const import::Map& map)
+{
+  const auto along = [](import::Wrap wrap)
+  {
+    return wrap == import::Wrap::Clamp    ? TextureWrap::Clamp
+           : wrap == import::Wrap::Mirror ? TextureWrap::Mirror
+                                          : TextureWrap::Repeat;
+  };
+  return { along(map.wrap[0]), along(map.wrap[1]) };
+}
+
 /// glTF says what alpha means; elsewhere a picture with holes is a cut-out.
 MaterialAlpha alphaOf(const import::Material& from)
 {
@@ -36,8 +47,9 @@ MaterialAlpha alphaOf(const import::Material& from)
 }
 } // namespace
 
-int AssimpMaterials::embeddedTexture(const std::string& name)
+int AssimpMaterials::embeddedTexture(const import::Map& map)
 {
+  const std::string& name = map.name;
   std::size_t index = 0;
   const auto parsed = std::from_chars(name.data() + 1, name.data() + name.size(), index);
   if (parsed.ec != std::errc() || index >= this->Scene.textures.size())
@@ -48,6 +60,7 @@ int AssimpMaterials::embeddedTexture(const std::string& name)
   import::Texture& from = this->Scene.textures[index];
   ModelPicture picture;
   picture.name = from.name.empty() ? name : from.name;
+  picture.wrap = wrapOf(map);
   if (from.width > 0 && from.height > 0 && from.width <= picture::largestSide && from.height <= picture::largestSide &&
       from.data.size() == std::size_t(from.width) * static_cast<std::size_t>(from.height) * 4)
   {
@@ -59,23 +72,30 @@ int AssimpMaterials::embeddedTexture(const std::string& name)
     const bool jpeg = from.data.size() > 1 && from.data[0] == 0xff && from.data[1] == 0xd8;
     picture.type = jpeg ? "jpg" : "png";
   }
-  picture.bytes = std::move(from.data);
-  return this->Builder.addEmbedded(std::move(picture));
+  const auto [first, isFirst] = this->Embedded.try_emplace(index, ModelPicture::own);
+  picture.same = first->second;
+  picture.bytes = std::move(from.data); // empty when another one has taken it
+  const int made = this->Builder.addEmbedded(std::move(picture));
+  first->second = isFirst ? made : first->second;
+  return made;
 }
 
-int AssimpMaterials::textureOf(const std::string& name)
+int AssimpMaterials::textureOf(const import::Map& map)
 {
+  const std::string& name = map.name;
   if (name.empty())
   {
     return -1;
   }
-  const auto known = this->Named.find(name);
+  const std::pair key{ name, wrapOf(map) };
+  const auto known = this->Named.find(key);
   if (known != this->Named.end())
   {
     return known->second;
   }
-  const int made = name[0] == '*' ? this->embeddedTexture(name) : this->Builder.addTexture(name, {}, unescaped(name));
-  this->Named[name] = made;
+  const int made =
+    name[0] == '*' ? this->embeddedTexture(map) : this->Builder.addTexture(name, {}, unescaped(name), key.second);
+  this->Named[key] = made;
   return made;
 }
 
@@ -91,10 +111,9 @@ void AssimpMaterials::nameTextures(const std::vector<std::int32_t>& indices)
   {
     if (const import::Material* material = this->find(index))
     {
-      for (const std::string* name : { &material->texture, &material->normalMap, &material->metallicRoughnessMap,
-             &material->emissionMap, &material->occlusionMap })
+      for (const import::Map* map : material->maps())
       {
-        this->textureOf(*name);
+        this->textureOf(*map);
       }
     }
   }

@@ -28,13 +28,14 @@ public:
 
 private:
   const import::Material* find(std::int32_t index) const;
-  int textureOf(const std::string& name);
-  int embeddedTexture(const std::string& name);
+  int textureOf(const import::Map& map);
+  int embeddedTexture(const import::Map& map);
 
   import::Scene& Scene;
   ModelBuilder& Builder;
   std::map<std::int32_t, int> Known;
-  std::map<std::string, int> Named;
+  std::map<std::pair<std::string, std::array<TextureWrap, 2>>, int> Named;
+  std::map<std::size_t, int> Embedded; ///< the first picture of each
 };
 
 } // namespace dgtk

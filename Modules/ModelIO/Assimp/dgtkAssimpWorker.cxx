@@ -222,7 +222,7 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   importer.SetIOHandler(files);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
-  const aiScene* found = importer.ReadFile(path, aiProcess_TransformUVCoords);
+  const aiScene* found = importer.ReadFile(path, format == "gltf" ? 0u : unsigned(aiProcess_TransformUVCoords));
   scene.bytesRead = files->Bytes;
   if (!files->LongNumber.empty())
   {

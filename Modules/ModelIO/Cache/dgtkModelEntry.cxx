@@ -171,6 +171,7 @@ template <class A>
 void io(A& a, ModelPicture& p)
 {
   a(p.name), a(p.alternative), a(p.unescaped), a(p.type), a(p.width), a(p.height), a(p.bytes);
+  a(p.same), a(p.wrap);
 }
 template <class A>
 void io(A& a, MaterialAlpha& m)
@@ -292,6 +293,13 @@ bool hasMaterials(const ModelContents& contents)
     {
       good = good && known(index);
     }
+  }
+  for (int i = 0; i < pictures; ++i)
+  {
+    const ModelPicture& picture = contents.pictures[std::size_t(i)];
+    const auto isWrap = [](TextureWrap wrap) { return wrap <= TextureWrap::Mirror; };
+    good = good && picture.same >= ModelPicture::own && picture.same < i && isWrap(picture.wrap[0]) &&
+           isWrap(picture.wrap[1]);
   }
   for (const ModelNote& note : contents.notes)
   {

@@ -15,6 +15,17 @@ std::uint32_t Model::partOf(std::uint32_t triangle) const
   return static_cast<std::uint32_t>(after - this->parts.begin()) - 1;
 }
 
+bool Model::reachesBeyondPictures(const Part& part) const
+{
+  constexpr double rounding = 1e-6;
+  const auto isOutside = [this](std::uint32_t vertex)
+  { return (this->uvs[vertex].array() < -rounding).any() || (this->uvs[vertex].array() > 1 + rounding).any(); };
+  const auto first = this->triangles.begin() + std::ptrdiff_t(part.firstTriangle);
+  return !this->uvs.empty() &&
+         std::any_of(first, first + std::ptrdiff_t(part.triangles),
+           [&](const auto& corners) { return std::any_of(corners.begin(), corners.end(), isOutside); });
+}
+
 std::shared_ptr<const Geometry> geometryAt(const Model& model, int animation, double frame)
 {
   if (!model.deformation)

@@ -120,22 +120,28 @@ void ModelBuilder::setMaterial(int index, const Material& material)
   m.texture = m.texture < static_cast<int>(this->Contents.pictures.size()) ? m.texture : -1;
 }
 
-int ModelBuilder::addTexture(const std::string& name, const std::string& alternative, const std::string& unescaped)
+int ModelBuilder::addTexture(const std::string& name, const std::string& alternative, const std::string& unescaped,
+  const std::array<TextureWrap, 2>& wrap)
 {
   if (name.empty())
   {
     return -1;
   }
   std::vector<ModelPicture>& pictures = this->Contents.pictures;
-  const auto [known, isNew] = this->Pictures.try_emplace(name, static_cast<int>(pictures.size()));
+  auto& named = this->Pictures[name];
+  const bool isNamed = !named.empty();
+  const auto [known, isNew] = named.try_emplace(wrap, static_cast<int>(pictures.size()));
   if (isNew && pictures.size() >= mostTextures)
   {
     known->second = -1;
   }
   else if (isNew)
   {
-    this->Contents.notes.push_back({ {}, known->second });
-    pictures.push_back({ name, alternative, unescaped, {}, 0, 0, {} });
+    if (!isNamed) // what is to be said of a picture is said once
+    {
+      this->Contents.notes.push_back({ {}, known->second });
+    }
+    pictures.push_back({ name, alternative, unescaped, {}, 0, 0, {}, ModelPicture::own, wrap });
     if (this->WantsPictures)
     {
       picture::prepare();

@@ -62,6 +62,7 @@ private:
     const ModelPicture& picture = this->Contents.pictures[index];
     Texture texture;
     texture.name = picture.name;
+    texture.wrap = picture.wrap;
     if (picture.isInFile())
     {
       texture.path = this->Made.path;
@@ -96,6 +97,10 @@ private:
     {
       Texture& texture = this->Made.textures[i];
       ModelPicture& picture = this->Contents.pictures[i];
+      if (picture.same != ModelPicture::own)
+      {
+        continue;
+      }
       if (picture.width > 0)
       {
         auto image = std::make_shared<Image>();
@@ -149,6 +154,12 @@ private:
     for (std::size_t i = 0; i < this->Made.textures.size(); ++i)
     {
       Texture& texture = this->Made.textures[i];
+      const std::int32_t same = this->Contents.pictures[i].same;
+      if (same != ModelPicture::own)
+      {
+        texture.image = this->Made.textures[static_cast<std::size_t>(same)].image;
+        continue;
+      }
       const auto known = this->ByPath.find(texture.path);
       const bool isFile = !this->Contents.pictures[i].isInFile();
       texture.image = isFile && known != this->ByPath.end() ? known->second : texture.image;

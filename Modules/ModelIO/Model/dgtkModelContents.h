@@ -4,6 +4,7 @@
 
 #include "dgtkModelReader.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,9 @@ struct ModelPicture
   std::int32_t width = 0;  ///< of RGBA rows
   std::int32_t height = 0;
   std::vector<std::uint8_t> bytes;
+  static constexpr std::int32_t own = -1;
+  std::int32_t same = own; ///< an earlier one in the file whose bytes are meant instead
+  std::array<TextureWrap, 2> wrap{};
 
   bool isInFile() const { return !this->type.empty() || this->width > 0; }
 };

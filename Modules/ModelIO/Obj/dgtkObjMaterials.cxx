@@ -28,35 +28,52 @@ Material unsaid(const std::string& name)
   return material;
 }
 
-/// The name of a picture, behind options such as `-s 1 1 1`.
-std::string pictureOf(ObjStatements& statements)
+/// The next word, which stays to be read.
+std::string_view ahead(ObjStatements& statements)
+{
+  const std::string_view rest = statements.rest();
+  return rest.substr(0, rest.find_first_of(" \t"));
+}
+} // namespace
+
+/// The name of a picture comes behind options such as `-s 1 1 1`.
+ObjMaterials::Picture ObjMaterials::readPicture(ObjStatements& statements)
 {
   static const std::map<std::string_view, int> values{ { "-blendu", 1 }, { "-blendv", 1 }, { "-boost", 1 },
     { "-mm", 2 }, { "-o", 3 }, { "-s", 3 }, { "-t", 3 }, { "-texres", 1 }, { "-clamp", 1 }, { "-bm", 1 },
     { "-imfchan", 1 }, { "-type", 1 }, { "-cc", 1 } };
+  Picture to;
   for (;;)
   {
     const std::string_view rest = statements.rest();
-    const auto option = values.find(rest.substr(0, rest.find_first_of(" \t")));
+    const auto option = values.find(ahead(statements));
     if (option == values.end())
     {
       const bool inQuotes = rest.size() > 1 && rest.front() == '"' && rest.back() == '"';
-      return std::string(inQuotes ? rest.substr(1, rest.size() - 2) : rest);
+      to.name = std::string(inQuotes ? rest.substr(1, rest.size() - 2) : rest);
+      return to;
     }
     statements.word();
+    std::array<double, 2>* const numbers = option->first == "-s"   ? &to.scale
+                                           : option->first == "-o" ? &to.offset
+                                                                   : nullptr;
     for (int i = 0; i < option->second; ++i)
     {
-      const std::string_view ahead = statements.rest();
-      const std::string_view word = ahead.substr(0, ahead.find_first_of(" \t"));
-      if (option->second == 3 && i > 0 && !parseNumber(word))
+      const std::string_view word = ahead(statements);
+      const std::optional<double> number = parseNumber(word);
+      if (option->second == 3 && i > 0 && !number)
       {
         break; // the second and third number may be left out
       }
+      if (numbers != nullptr && i < 2 && number)
+      {
+        (*numbers)[std::size_t(i)] = *number;
+      }
+      to.wrap.fill(option->first == "-clamp" && word == "on" ? TextureWrap::Clamp : to.wrap[0]);
       statements.word();
     }
   }
 }
-} // namespace
 
 ObjMaterials::ObjMaterials(const std::string& path, ModelBuilder& builder)
   : Path(path)
@@ -148,7 +165,7 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
   }
   else if (keyword == "map_Kd")
   {
-    entry.picture = pictureOf(statements);
+    entry.picture = readPicture(statements);
   }
 }
 
@@ -164,8 +181,29 @@ int ObjMaterials::add(const Entry& entry)
     this->Builder.warn("material " + dgtk::quoted(material.name) + " has opacity 0: drawn opaque");
     material.opacity = 1;
   }
-  material.texture = this->Builder.addTexture(entry.picture);
-  return this->Builder.addMaterial(material);
+  const Picture& picture = entry.picture;
+  material.texture = this->Builder.addTexture(picture.name, {}, {}, picture.wrap);
+  const int made = this->Builder.addMaterial(material);
+  if (picture.scale != Picture().scale || picture.offset != Picture().offset)
+  {
+    this->Moved[made] = picture;
+  }
+  return made;
+}
+
+void ObjMaterials::place(int material, std::vector<Corner>& corners) const
+{
+  const auto moved = this->Moved.find(material);
+  if (moved == this->Moved.end())
+  {
+    return;
+  }
+  const Picture& picture = moved->second;
+  for (Corner& corner : corners)
+  {
+    corner.u = static_cast<float>(double(corner.u) * picture.scale[0] + picture.offset[0]);
+    corner.v = static_cast<float>(double(corner.v) * picture.scale[1] + picture.offset[1]);
+  }
 }
 
 int ObjMaterials::indexOf(const std::string& name)

@@ -22,18 +22,29 @@ public:
 
   /// Reads the libraries that a statement `mtllib` names: one, whose name may have blanks, or several.
   void addLibraries(std::string_view names);
+  /// Moves texture coordinates to where a material that indexOf() returned places its picture.
+  void place(int material, std::vector<Corner>& corners) const;
   /// Index of the material of that name; one that no library has is grey, and warned of once. "": none was named.
   int indexOf(const std::string& name);
   /// Says which other files were read. Throws InputError when one was named that the model may not have.
   void finish();
 
 private:
+  /// `map_Kd` of a material: scaled, then moved.
+  struct Picture
+  {
+    std::string name;
+    std::array<double, 2> scale{ 1, 1 };
+    std::array<double, 2> offset{ 0, 0 };
+    std::array<TextureWrap, 2> wrap{};
+  };
   /// A material of a library.
   struct Entry
   {
     Material material;
-    std::string picture;
+    Picture picture;
   };
+  static Picture readPicture(class ObjStatements& statements);
 
   bool addLibrary(const std::string& name);
   void readLibrary(const std::string& path);
@@ -46,6 +57,7 @@ private:
   std::set<std::string> Read; ///< paths of libraries
   std::map<std::string, Entry> Entries;
   std::map<std::string, int> Made;
+  std::map<int, Picture> Moved; ///< those that do not lie as the coordinates say, by material
 };
 
 } // namespace dgtk

@@ -276,6 +276,7 @@ private:
     {
       this->Material = this->Material ? this->Material : this->Materials.indexOf(this->MaterialName);
       this->Style.material = *this->Material;
+      this->Materials.place(*this->Material, this->Corners);
       this->ObjectBytes += bytesOfFace + (bytesOfCorner + bytesOfTriangle) * this->Corners.size();
       if (this->ObjectBytes > this->MostBytes)
       {

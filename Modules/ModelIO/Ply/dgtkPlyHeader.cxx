@@ -28,6 +28,11 @@ const std::map<std::string, PlyType>& types()
   return known;
 }
 
+TextureWrap wrapOf(const std::string& word)
+{
+  return word == "clamp" ? TextureWrap::Clamp : word == "mirror" ? TextureWrap::Mirror : TextureWrap::Repeat;
+}
+
 class HeaderParser
 {
 public:
@@ -85,11 +90,17 @@ private:
     const std::string& word = this->Words[0];
     if (word == "comment")
     {
-      if (this->Words.size() > 2 && this->Words[1] == "TextureFile" && this->Header.texture.empty())
+      const bool isPicture = this->Words.size() > 2 && this->Words[1] == "TextureFile";
+      this->Pictures += isPicture ? 1 : 0;
+      if (isPicture && this->Header.texture.empty())
       {
         // a name may have blanks in it
         const std::size_t at = this->Text.find(this->Words[2], this->Text.find("TextureFile") + 11);
         this->Header.texture = this->Words.size() == 3 ? this->Words[2] : this->Text.substr(at);
+      }
+      else if (this->Words.size() == 4 && this->Words[1] == "TextureWrap" && this->Pictures == 1)
+      {
+        this->Header.wrap = { wrapOf(this->Words[2]), wrapOf(this->Words[3]) };
       }
     }
     else if (word == "format")
@@ -213,6 +224,7 @@ private:
   const std::string& Path;
   const std::string& Contents;
   PlyHeader Header;
+  std::size_t Pictures = 0; ///< named so far
   TextLines Lines;
   std::string Text;
   std::vector<std::string> Words;

@@ -299,7 +299,8 @@ private:
       this->Material = this->Builder.addMaterial(made);
       if (!this->Header.texture.empty())
       {
-        this->Material = this->Builder.withTexture(this->Material, this->Builder.addTexture(this->Header.texture));
+        this->Material = this->Builder.withTexture(
+          this->Material, this->Builder.addTexture(this->Header.texture, {}, {}, this->Header.wrap));
       }
     }
     return this->Material;

@@ -150,6 +150,22 @@ TEST(Studio3ds, TexturesAreScaledAndMoved)
   EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3.25));
 }
 
+TEST(Studio3ds, TexturesRepeatAreMirroredOrEnd)
+{
+  using dgtk::TextureWrap;
+  for (const auto& [flags, wrap] : { std::pair(0, TextureWrap::Repeat), std::pair(2, TextureWrap::Mirror),
+         std::pair(16, TextureWrap::Clamp), std::pair(64, TextureWrap::Repeat) })
+  {
+    const std::string map = chunk3ds(0xa300, text3ds("T.PNG")) + chunk3ds(0xa351, u16(std::uint16_t(flags)));
+    const std::string material = chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")) + chunk3ds(0xa200, map));
+    const std::string use = chunk3ds(0x4130, text3ds("m") + u16(1) + u16(0));
+    const auto model =
+      readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + faces3ds({ 0, 1, 2 }, use), material));
+    ASSERT_EQ(model->textures.size(), 1u);
+    EXPECT_EQ(model->textures[0].wrap, (std::array{ wrap, wrap })) << flags;
+  }
+}
+
 TEST(Studio3ds, TheFirstColourAndTheFirstMaterialOfANameAreMeant)
 {
   const auto material = [](float red, float green)

@@ -132,10 +132,12 @@ std::string slidingGlb(const std::string& picture)
   maker.json["meshes"] = { { { "primitives",
     { { { "attributes", { { "POSITION", positions }, { "TEXCOORD_0", uvs } } }, { "material", 0 } } } } } };
   maker.json["materials"] = { { { "name", "leaf" }, { "alphaMode", "MASK" }, { "alphaCutoff", 0.9 },
+    { "emissiveTexture", { { "index", 1 } } },
     { "pbrMetallicRoughness", { { "baseColorTexture", { { "index", 0 } } }, { "metallicFactor", 0.25 } } } } };
   maker.json["images"] = { { { "name", "leaves" }, { "mimeType", "image/png" },
     { "bufferView", maker.view(picture) } } };
-  maker.json["textures"] = { { { "source", 0 } } };
+  maker.json["textures"] = { { { "source", 0 }, { "sampler", 0 } }, { { "source", 0 } } };
+  maker.json["samplers"] = { { { "wrapS", 33071 }, { "wrapT", 33648 } } };
   maker.json["animations"] = { { { "name", "Slide" },
     { "channels", { { { "sampler", 0 }, { "target", { { "node", 0 }, { "path", "translation" } } } } } },
     { "samplers", { { { "input", times }, { "output", moves } } } } } };
@@ -174,6 +176,7 @@ void expectEqual(const Model& a, const Model& b)
   {
     EXPECT_EQ(a.textures[i].name, b.textures[i].name);
     EXPECT_EQ(a.textures[i].path, b.textures[i].path);
+    EXPECT_EQ(a.textures[i].wrap, b.textures[i].wrap);
     ASSERT_EQ(a.textures[i].image != nullptr, b.textures[i].image != nullptr);
     EXPECT_TRUE(!a.textures[i].image || a.textures[i].image->rgba == b.textures[i].image->rgba);
   }
@@ -238,7 +241,7 @@ TEST(ModelCache, AKeptModelIsTheModel)
   }
   const auto leaf = kept.read(kept.path("d.glb"));
   EXPECT_TRUE(leaf->materials[0].cutOut);
-  EXPECT_EQ(leaf->textures.size(), 2u); // one with the file's own cut-off
+  EXPECT_EQ(leaf->textures.size(), 3u); // one more with the file's own cut-off
   EXPECT_THAT(kept.read(kept.path("a.obj"))->warnings, testing::SizeIs(3));
 }
 

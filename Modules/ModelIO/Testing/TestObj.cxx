@@ -310,6 +310,37 @@ TEST(Obj, PicturesBehindOptions)
   EXPECT_EQ(folder.read("mtllib a.mtl\n" + triangle + "usemtl m\nf 1 2 3\n")->textures[0].name, "my stone.png");
 }
 
+TEST(Obj, PicturesAreScaledAndMoved)
+{
+  using dgtk::TextureWrap;
+  ObjFolder folder;
+  const auto read = [&folder](const std::string& options)
+  {
+    folder.write("a.mtl", "newmtl n\nmap_Kd p.png\nnewmtl m\nmap_Kd " + options + "p.png\n");
+    return folder.read("mtllib a.mtl\nvt 0.5 0.25\n" + triangle + "usemtl m\nf 1/1 2/1 3/1\nusemtl n\nf 1/1 2/1 3/1\n");
+  };
+  const auto placed = [&read](const std::string& options)
+  {
+    const auto model = read(options);
+    EXPECT_EQ(model->uvs[model->triangles[1][0]], Eigen::Vector2d(0.5, 0.25)) << "of the other material";
+    return Eigen::Vector2d(model->uvs[model->triangles[0][0]]);
+  };
+  EXPECT_EQ(placed(""), Eigen::Vector2d(0.5, 0.25));
+  EXPECT_EQ(placed("-s 2 4 8 "), Eigen::Vector2d(1, 1));
+  EXPECT_EQ(placed("-s 2 "), Eigen::Vector2d(1, 0.25));
+  EXPECT_EQ(placed("-o 0.25 -1 "), Eigen::Vector2d(0.75, -0.75));
+  EXPECT_EQ(placed("-o 0.25 -s -2 2 1 "), Eigen::Vector2d(-0.75, 0.5)) << "scaled, then moved";
+  EXPECT_EQ(placed("-t 2 2 2 -mm 2 3 "), Eigen::Vector2d(0.5, 0.25));
+  const auto two = read("-clamp on ");
+  ASSERT_EQ(two->textures.size(), 2u);
+  const auto wrapOf = [&two](std::size_t part)
+  { return two->textures[std::size_t(two->materials[std::size_t(two->parts[part].material)].texture)].wrap; };
+  EXPECT_EQ(wrapOf(0), (std::array{ TextureWrap::Clamp, TextureWrap::Clamp }));
+  EXPECT_EQ(wrapOf(1), (std::array{ TextureWrap::Repeat, TextureWrap::Repeat }));
+  EXPECT_THAT(two->warnings, ElementsAre(HasSubstr("texture 'p.png' not found"))) << "said once";
+  EXPECT_EQ(read("-clamp off ")->textures.size(), 1u);
+}
+
 TEST(Obj, LibrariesByTheirNames)
 {
   ObjFolder folder;

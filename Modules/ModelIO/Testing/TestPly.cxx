@@ -247,6 +247,22 @@ TEST(Ply, ThePictureThatACommentNames)
   }
 }
 
+TEST(Ply, HowThePictureGoesOn)
+{
+  using dgtk::TextureWrap;
+  const auto wrapOf = [](const std::string& comments)
+  {
+    const auto model = readBytes("ply", changed(asciiQuad, "element vertex", comments + "element vertex"));
+    return model->textures.at(0).wrap;
+  };
+  const std::string first = "comment TextureFile a.png\n";
+  const std::string second = "comment TextureFile b.png\n";
+  const std::string wrap = "comment TextureWrap clamp mirror\n";
+  EXPECT_EQ(wrapOf(first), (std::array{ TextureWrap::Repeat, TextureWrap::Repeat }));
+  EXPECT_EQ(wrapOf(first + wrap + second), (std::array{ TextureWrap::Clamp, TextureWrap::Mirror }));
+  EXPECT_EQ(wrapOf(first + second + wrap), (std::array{ TextureWrap::Repeat, TextureWrap::Repeat })) << "the second's";
+}
+
 TEST(Ply, ColoursOfTwoBytes)
 {
   std::string text = asciiQuad;

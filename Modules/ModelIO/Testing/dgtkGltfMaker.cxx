@@ -70,4 +70,19 @@ std::string GltfMaker::glb() const
          word(buffer.size()) + std::string("BIN\0", 4) + buffer;
 }
 
+GltfMaker plain(const nlohmann::json& material)
+{
+  GltfMaker maker;
+  const int positions = maker.floats("VEC3", { 0, 0, 0, 1, 0, 0, 0, 1, 0 });
+  const int uvs = maker.floats("VEC2", { 0, 0, 1, 0, 0, 1 });
+  maker.json["scenes"] = { { { "nodes", { 0 } } } };
+  maker.json["nodes"] = { { { "name", "Parent" }, { "scale", { 2, 2, -2 } }, { "children", { 1 } } },
+    { { "name", "Child" }, { "mesh", 0 }, { "translation", { 0, 0, 3 } } } };
+  maker.json["meshes"] = { { { "name", "Triangle" },
+    { "primitives",
+      { { { "attributes", { { "POSITION", positions }, { "TEXCOORD_0", uvs } } }, { "material", 0 } } } } } };
+  maker.json["materials"] = { material };
+  return maker;
+}
+
 } // namespace dgtk::test

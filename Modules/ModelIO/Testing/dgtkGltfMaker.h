@@ -64,6 +64,9 @@ private:
   std::string Buffer;
 };
 
+/// One triangle with a material, mirrored by its node.
+GltfMaker plain(const nlohmann::json& material);
+
 } // namespace dgtk::test
 
 #endif

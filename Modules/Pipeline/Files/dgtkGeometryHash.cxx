@@ -51,7 +51,12 @@ std::string hashOfTexture(const Texture& texture)
 {
   Bytes bytes;
   bytes.number(texture.filter);
-  bytes.number(texture.repeats);
+  bytes.number(texture.repeats());
+  if (!texture.repeats())
+  {
+    bytes.number(texture.wrap[0]);
+    bytes.number(texture.wrap[1]);
+  }
   bytes.text(texture.path.empty() || !texture.image ? "" : hashOfFile(texture.path));
   if (texture.path.empty() && texture.image)
   {

@@ -29,6 +29,15 @@ const Texture* textureOf(const Model& model, const Material& material)
   return texture != nullptr && texture->image ? texture : nullptr;
 }
 
+/// "clamp mirror": what there is of a picture beyond it, along u and v; "" where it repeats.
+std::string wrapOf(const Texture& texture)
+{
+  const auto word = [](TextureWrap wrap) {
+    return wrap == TextureWrap::Clamp ? "clamp" : wrap == TextureWrap::Mirror ? "mirror" : "repeat";
+  };
+  return texture.repeats() ? std::string() : std::string(word(texture.wrap[0])) + ' ' + word(texture.wrap[1]);
+}
+
 Color colorOf(const Model& model, const Material& material, std::uint32_t vertex)
 {
   const auto own = vertexColor(model, vertex);
@@ -65,9 +74,10 @@ public:
   std::string text(const std::vector<std::string>& pictures) const
   {
     std::string text = "ply\nformat binary_little_endian 1.0\n";
-    for (const std::string& picture : pictures)
+    for (std::size_t i = 0; i < pictures.size(); ++i)
     {
-      text += "comment TextureFile " + picture + '\n';
+      const std::string wrap = wrapOf(*this->Textures[i]);
+      text += "comment TextureFile " + pictures[i] + '\n' + (wrap.empty() ? "" : "comment TextureWrap " + wrap + '\n');
     }
     text += "element vertex " + std::to_string(this->Numbers.size()) +
             "\nproperty double x\nproperty double y\nproperty double z"
@@ -128,20 +138,21 @@ private:
   std::string Triangles;
 };
 
-DatasetFile writePicture(const std::string& folder, const std::string& name, const Texture& texture)
+/// A PNG of pixels that are in no file of their own.
+DatasetFile writePixels(const std::string& folder, const std::string& name, const Image& image)
 {
-  if (!texture.path.empty())
-  {
-    return writeDocument(folder, name, readFile(texture.path));
-  }
-  const Image& image = *texture.image;
   LayerSpec spec;
   spec.name = "picture";
   spec.meaning = Meaning::Picture;
-  spec.channels = 4;
+  spec.channels = image.hasAlpha ? 4 : 3;
   const auto writer = makeLayerWriter("png", FilePlace(folder, name), spec, image.width, image.height);
-  Rows rows(PixelType::UInt8, 4, image.width, 0, image.height);
-  std::memcpy(rows.data(), image.rgba.data(), rows.bytes());
+  const auto channels = std::size_t(spec.channels);
+  Rows rows(PixelType::UInt8, spec.channels, image.width, 0, image.height);
+  std::byte* const target = rows.data();
+  for (std::size_t i = 0; i < image.rgba.size() / 4; ++i)
+  {
+    std::memcpy(target + channels * i, &image.rgba[4 * i], channels);
+  }
   writer->write(rows);
   const FileRecord record = writer->finish();
   return { name, record.bytes, record.sha256, {}, {}, -1 };
@@ -176,7 +187,7 @@ WrittenModels::File WrittenModels::fileOf(std::size_t object, const std::string&
     const Texture* const texture = textureOf(*instance.model, (*instance.materials)[std::size_t(part.material)]);
     if (texture != nullptr && file.pictures.count(texture) == 0)
     {
-      const std::string extension = texture->path.empty() ? "png" : extensionOf(texture->path);
+      const std::string extension = instance.model->holds(*texture) ? "png" : extensionOf(texture->path);
       file.pictures[texture] = stem + '_' + std::to_string(file.order.size()) + '.' + extension;
       file.order.push_back(texture);
     }
@@ -225,7 +236,13 @@ void WrittenModels::write(const std::string& folder, RunFiles& run) const
     for (const Texture* texture : one.order)
     {
       const std::string& picture = one.pictures.at(texture);
-      writeOne(picture, [&] { return writePicture(folder, picture, *texture); });
+      const bool isHeld = this->State->instances[one.object].model->holds(*texture);
+      writeOne(picture,
+        [&]
+        {
+          return isHeld ? writePixels(folder, picture, *texture->image)
+                        : writeDocument(folder, picture, readFile(texture->path));
+        });
     }
     const std::string& own = name;
     writeOne(own, [&] { return writeDocument(folder, own, this->ply(one)); });

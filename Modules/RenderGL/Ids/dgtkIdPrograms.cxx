@@ -47,8 +47,9 @@ unsigned int IdPrograms::vertexArray()
 
 const IdPrograms::Program& IdPrograms::program(const ShaderVariant& variant)
 {
+  const auto& wraps = variant.wraps[ShaderVariant::Base];
   Program& wanted = this->All[(variant.cutOut ? 1u : 0u) + (variant.pieces ? 2u : 0u) + (variant.peel ? 4u : 0u) +
-                              (variant.bounded ? 8u : 0u)];
+                              8u * (unsigned(wraps[0]) + 3u * unsigned(wraps[1]))];
   if (wanted.name)
   {
     return wanted;

@@ -27,13 +27,14 @@ public:
     int layer = -1;   ///< dgtkLayer
     int first = -1;   ///< dgtkFirstTriangle
   };
-  /// Of `variant`, cutOut, pieces, peel and bounded count. Throws MachineError with the compiler's words.
+  /// Of `variant`, cutOut, pieces, peel and the wraps of the base picture count. Throws MachineError with the
+  /// compiler's words.
   const Program& program(const ShaderVariant& variant);
   /// A vertex array of our own.
   unsigned int vertexArray();
 
 private:
-  std::array<Program, 16> All;
+  std::array<Program, 72> All;
   unsigned int VertexArray = 0;
 };
 

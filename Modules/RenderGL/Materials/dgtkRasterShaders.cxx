@@ -8,7 +8,9 @@
 
 #include <vtkShaderProgram.h>
 
+#include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace dgtk
 {
@@ -21,7 +23,6 @@ void put(std::string& source, const char* tag, const std::string& text)
 }
 
 /// The texel whose alpha decides: repeated, at full resolution, (0, 0) the lower left one.
-constexpr const char* repeatedTexel = "  texel -= vec2(size) * floor(texel / vec2(size));\n";
 constexpr const char* goneTexel = R"(
 bool dgtkGone(sampler2D picture, vec2 uv)
 {
@@ -76,25 +77,72 @@ vec3 dgtkTexel(sampler2D picture, vec2 uv)
 }
 )";
 
-/// Of a texture that repeats, or whose border goes on.
-std::string goneCode(const ShaderVariant& variant)
+using Wraps = std::array<TextureWrap, 2>;
+
+/// `repeat`, `clamp` or `mirror` of each axis, `$` in them being "x" and "y".
+std::string perAxis(const Wraps& wraps, const std::string& repeat, const std::string& clamp, const std::string& mirror)
 {
-  std::string code = variant.cutOut ? goneTexel : "";
-  if (variant.bounded)
+  std::string code;
+  for (std::size_t i = 0; i < wraps.size(); ++i)
   {
-    put(code, repeatedTexel, "");
+    code += wraps[i] == TextureWrap::Repeat ? repeat : wraps[i] == TextureWrap::Clamp ? clamp : mirror;
+    std::replace(code.begin(), code.end(), '$', "xy"[i]);
   }
   return code;
 }
 
+/// Texels around a picture that does not repeat.
+std::string goneCode(const ShaderVariant& variant)
+{
+  std::string code = variant.cutOut ? goneTexel : "";
+  if (const Wraps& wraps = variant.wraps[ShaderVariant::Base]; wraps != Wraps{})
+  {
+    put(code, "  texel -= vec2(size) * floor(texel / vec2(size));\n",
+      "  vec2 tiled = vec2(size);\n" + perAxis(wraps, "  texel.$ -= tiled.$ * floor(texel.$ / tiled.$);\n", "",
+                                         "  texel.$ -= 2.0 * tiled.$ * floor(texel.$ / (2.0 * tiled.$));\n"
+                                         "  texel.$ = min(texel.$, 2.0 * tiled.$ - 1.0 - texel.$);\n"));
+  }
+  return code;
+}
+
+/// What is behind the name of dgtkTexel() for pictures that are wrapped so.
+std::string suffixOf(const Wraps& wraps) { return wraps == Wraps{} ? "" : perAxis(wraps, "Repeat", "Clamp", "Mirror"); }
+
 std::string filterCode(const ShaderVariant& variant)
 {
   std::string code = variant.samples() ? filteredTexel : "";
-  if (variant.bounded)
+  for (const Wraps& wraps :
+    variant.samples() ? std::set<Wraps>(variant.wraps.begin(), variant.wraps.end()) : std::set<Wraps>())
   {
-    put(code, "fract(uv) * size - 0.5", "clamp(uv * size, vec2(0.5), size - 0.5) - 0.5");
+    if (wraps != Wraps{})
+    {
+      std::string other = filteredTexel;
+      put(other, "vec2 at = fract(uv) * size - 0.5;",
+        "vec2 at;\n" +
+          perAxis(wraps, "  at.$ = fract(uv.$) * size.$ - 0.5;\n",
+            "  at.$ = clamp(uv.$ * size.$, 0.5, size.$ - 0.5) - 0.5;\n",
+            "  at.$ = clamp(abs(uv.$ - 2.0 * floor(0.5 * uv.$ + 0.5)) * size.$, 0.5, size.$ - 0.5) - 0.5;\n"));
+      put(other, "dgtkBilinear", "dgtkBilinear" + suffixOf(wraps));
+      put(other, "dgtkTexel", "dgtkTexel" + suffixOf(wraps));
+      code += other;
+    }
   }
   return code;
+}
+
+/// Lets each picture be read by the function of its wraps.
+void putWraps(const ShaderVariant& variant, std::string& fragment)
+{
+  constexpr std::array<const char*, ShaderVariant::pictures> names{ "actortexture", "dgtkNormalMap", "heights",
+    "dgtkMetalRoughMap", "dgtkEmissionMap", "dgtkOcclusionMap" };
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    if (variant.wraps[i] != Wraps{})
+    {
+      const std::string read = std::string("(") + names[i] + ',';
+      put(fragment, ("dgtkTexel" + read).c_str(), "dgtkTexel" + suffixOf(variant.wraps[i]) + read);
+    }
+  }
 }
 
 constexpr const char* peeling = R"(
@@ -300,6 +348,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   put(fragment, "//VTK::TCoord::Impl", finish);
   // VTK's test of alpha would cost the early depth test.
   put(fragment, "if (gl_FragData[0].a <= 0.0)\n    {\n    discard;\n    }", "");
+  putWraps(variant, fragment);
 }
 
 std::string idVertexShader(const ShaderVariant& variant)

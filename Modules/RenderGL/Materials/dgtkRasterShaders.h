@@ -4,9 +4,11 @@
 
 #include "dgtkRasterLights.h"
 
+#include "dgtkModel.h"
+
 #include <array>
 #include <string>
-#include <utility>
+#include <tuple>
 
 namespace dgtk
 {
@@ -14,6 +16,18 @@ namespace dgtk
 /// What a fragment shader has to do.
 struct ShaderVariant
 {
+  /// Pictures, in the order of `wraps`.
+  enum Picture : std::size_t
+  {
+    Base,
+    Normal,
+    Bump,
+    MetallicRoughness,
+    Emission,
+    Occlusion,
+    pictures
+  };
+
   std::array<int, lightLawCount> lights{}; ///< number of those of each law
   bool headOnly = false;                   ///< one head light and nothing else: VTK's short form
   bool lightTexture = false;               ///< lights come from a buffer texture: more than fit in uniforms
@@ -21,7 +35,7 @@ struct ShaderVariant
   bool textured = false;
   bool colored = false; ///< vertices have colours
   bool cutOut = false;
-  bool bounded = false; ///< the texture's border goes on around it, instead of the texture
+  std::array<std::array<TextureWrap, 2>, pictures> wraps{};
   bool pieces = false;  ///< the triangle comes from a vertex attribute
   bool peel = false;    ///< fragments up to those of the layer before are not there
   bool collect = false; ///< fragments are appended to a FragmentList
@@ -45,11 +59,11 @@ struct ShaderVariant
   /// Everything above.
   auto key() const
   {
-    return std::make_pair(
-      this->lights, std::array<bool, 19>{ this->bounded, this->colored, this->headOnly, this->lightTexture,
-                      this->specular, this->textured, this->cutOut, this->pieces, this->peel, this->collect,
-                      this->shadows, this->fog, this->environment, this->physical, this->normalMap, this->bumpMap,
-                      this->metallicRoughnessMap, this->emissionMap, this->occlusionMap });
+    return std::make_tuple(this->lights, this->wraps,
+      std::array<bool, 18>{ this->colored, this->headOnly, this->lightTexture, this->specular, this->textured,
+        this->cutOut, this->pieces, this->peel, this->collect, this->shadows, this->fog, this->environment,
+        this->physical, this->normalMap, this->bumpMap, this->metallicRoughnessMap, this->emissionMap,
+        this->occlusionMap });
   }
   bool operator==(const ShaderVariant& o) const { return this->key() == o.key(); }
 };

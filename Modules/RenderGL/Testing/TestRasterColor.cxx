@@ -300,6 +300,94 @@ TEST_P(PictureColor, CutOutTexelsAreNotThere)
   }
 }
 
+// By the definitions of OpenGL's wrap modes: texel -1 is the last, the first, or the first again, going back from
+// there.
+TEST_P(PictureColor, PicturesGoOnAsTheirTexturesSay)
+{
+  const auto wrapped = [](int texel, int size, TextureWrap wrap)
+  {
+    const int around = ((texel % size) + size) % size;
+    const bool odd = (((texel - around) / size) & 1) != 0;
+    return wrap == TextureWrap::Clamp           ? std::clamp(texel, 0, size - 1)
+           : wrap == TextureWrap::Mirror && odd ? size - 1 - around
+                                                : around;
+  };
+  const auto values = std::vector<std::array<int, 4>>{ { 255, 0, 51, 255 }, { 0, 102, 204, 0 }, { 51, 255, 0, 255 },
+    { 0, 0, 255, 0 }, { 204, 153, 0, 255 }, { 102, 0, 0, 255 }, { 0, 51, 102, 255 }, { 255, 255, 255, 0 } };
+  const auto flatter = [&values](std::size_t turn)
+  {
+    std::vector<std::array<int, 4>> all = values;
+    std::rotate(all.begin(), all.begin() + std::ptrdiff_t(turn), all.end());
+    std::for_each(all.begin(), all.end(), [](auto& texel) { texel[3] = 255; });
+    return all;
+  };
+  /// Of a picture of 4 x 2 texels, interpolated.
+  const auto seen = [&](const std::vector<std::array<int, 4>>& texels, const std::array<TextureWrap, 2>& wrap,
+                      const Eigen::Vector2d& uv)
+  {
+    const double x = uv.x() * 4 - 0.5;
+    const double y = uv.y() * 2 - 0.5;
+    const Eigen::Vector2i first(int(std::floor(x)), int(std::floor(y)));
+    Eigen::Vector3d sum(0, 0, 0);
+    for (const int i : { 0, 1 })
+    {
+      for (const int j : { 0, 1 })
+      {
+        const int column = wrapped(first.x() + i, 4, wrap[0]);
+        const int row = 1 - wrapped(first.y() + j, 2, wrap[1]);
+        const std::array<int, 4>& texel = texels[std::size_t(row * 4 + column)];
+        sum += (i == 1 ? x - first.x() : 1 - x + first.x()) * (j == 1 ? y - first.y() : 1 - y + first.y()) / 255 *
+               Eigen::Vector3d(texel[0], texel[1], texel[2]);
+      }
+    }
+    return sum;
+  };
+  using Wraps = std::array<TextureWrap, 2>;
+  constexpr TextureWrap repeat = TextureWrap::Repeat;
+  constexpr TextureWrap clamp = TextureWrap::Clamp;
+  constexpr TextureWrap mirror = TextureWrap::Mirror;
+  const View view = frontView(256, 192);
+  for (const auto& [base, glow] : { std::pair{ Wraps{ clamp, clamp }, Wraps{ mirror, repeat } },
+         std::pair{ Wraps{ mirror, mirror }, Wraps{ clamp, clamp } },
+         std::pair{ Wraps{ repeat, clamp }, Wraps{ repeat, repeat } },
+         std::pair{ Wraps{ clamp, mirror }, Wraps{ mirror, clamp } },
+         std::pair{ Wraps{ repeat, repeat }, Wraps{ repeat, mirror } } })
+  {
+    for (const bool holes : { false, true })
+    {
+      ModelBuilder front;
+      Material material = flat(Eigen::Vector3d::Constant(0.25));
+      material.ambient = Eigen::Vector3d::Constant(2.5); // of a fifth
+      material.texture = front.texture(picture(4, 2, holes ? values : flatter(0)), base);
+      material.emissionMap = front.texture(picture(4, 2, flatter(3)), glow);
+      material.cutOut = holes;
+      front.part(material);
+      front.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, 5);
+      auto model = std::make_shared<Model>(*front.finish());
+      std::for_each(model->uvs.begin(), model->uvs.end(), [](Eigen::Vector2d& uv) { uv.array() -= 2; });
+      VisibilityBuffer hits;
+      const ColorBuffer colors = renderColor(stateOf({ model, square(flat({ 0, 0, 1 }), -1, 3) }), view, 1, &hits);
+      for (int y = 0; y < 192; ++y)
+      {
+        for (int x = 0; x < 256; ++x)
+        {
+          const Eigen::Vector3d p = pointAt(view, x, y);
+          const Eigen::Vector2d uv = 2.5 * p.head<2>() + Eigen::Vector2d(0.5, 0.5);
+          const int column = wrapped(int(std::floor(uv.x() * 4)), 4, base[0]);
+          const int row = 1 - wrapped(int(std::floor(uv.y() * 2)), 2, base[1]);
+          const bool there = std::abs(p.x()) < 1 && (!holes || values[std::size_t(row * 4 + column)][3] > 0);
+          ASSERT_EQ(hits.at(x, y).object, there ? 1u : 2u) << x << ' ' << y;
+          if (there && !holes)
+          {
+            expectColor(
+              colorAt(colors, x, y), 0.5 * seen(flatter(0), base, uv) + 0.25 * seen(flatter(3), glow, uv), 0.004);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST_P(PictureColor, TranslucentSurfacesBlendInOrder)
 {
   Material red = flat({ 1, 0, 0 });

@@ -47,10 +47,11 @@ Material& ModelBuilder::part(const Material& material)
   return this->Made->materials.back();
 }
 
-int ModelBuilder::texture(std::shared_ptr<const Image> image)
+int ModelBuilder::texture(std::shared_ptr<const Image> image, const std::array<TextureWrap, 2>& wrap)
 {
   Texture texture;
   texture.image = std::move(image);
+  texture.wrap = wrap;
   this->Made->textures.push_back(texture);
   return int(this->Made->textures.size()) - 1;
 }

@@ -145,14 +145,21 @@ TEST(TexturePyramid, OthersThanSmoothOnesAreWhatIsAtTheirPoint)
   image->height = 1; // red, green
   image->rgba = { 255, 0, 0, 255, 0, 255, 0, 255 };
   const Footprint wide{ 0.4, 0.5, 8, 0, 0, 8 };
-  const TexturePyramid nearest(*image, { false, TextureFilter::Nearest, true });
+  const TexturePyramid nearest(*image, { false, TextureFilter::Nearest, {} });
   EXPECT_EQ(nearest.at(wide)[0], 1);
   EXPECT_EQ(nearest.at({ 0.6, 0.5, 0, 0, 0, 0 })[1], 1);
   EXPECT_EQ(nearest.at({ 1.1, 0.5, 0, 0, 0, 0 })[0], 1) << "it repeats";
-  const TexturePyramid linear(*image, { false, TextureFilter::Linear, false });
+  const TexturePyramid linear(*image, { false, TextureFilter::Linear, { TextureWrap::Clamp, TextureWrap::Clamp } });
   EXPECT_NEAR(double(linear.at(wide)[0]), 0.7, 1e-6);
   EXPECT_EQ(linear.at({ 1.4, 0.5, 0, 0, 0, 0 })[1], 1) << "its border goes on";
   EXPECT_EQ(linear.at({ -3, 0.5, 0, 0, 0, 0 })[0], 1);
+  const TexturePyramid mirrored(*image, { false, TextureFilter::Linear, { TextureWrap::Mirror, TextureWrap::Repeat } });
+  for (const double u : { 0.4, -0.4, 1.6, 2.4, -1.6, 100.4 })
+  {
+    EXPECT_NEAR(double(mirrored.at({ u, 0.5, 0, 0, 0, 0 })[0]), 0.7, 1e-5) << u;
+  }
+  EXPECT_EQ(mirrored.at({ 1, 0.5, 0, 0, 0, 0 })[1], 1) << "the last texel beside itself";
+  EXPECT_EQ(mirrored.at({ -0.2, 0.5, 0, 0, 0, 0 })[0], 1);
 }
 
 // A grating that a pixel sees lengthwise stays sharp across while it is averaged along.

@@ -4,7 +4,9 @@
 
 #include "dgtkHash.h"
 #include "dgtkPlyFile.h"
+#include "dgtkTextureFile.h"
 
+#include <array>
 #include <filesystem>
 #include <set>
 
@@ -97,7 +99,26 @@ private:
     return (*this->TheInstance.materials)[std::size_t(part.material)];
   }
 
-  /// The file beside the model is the texture's own.
+  static std::string wrapText(const Texture& texture)
+  {
+    constexpr std::array<const char*, 3> words{ "repeat", "clamp", "mirror" };
+    return texture.repeats()
+             ? std::string()
+             : std::string(words[std::size_t(texture.wrap[0])]) + ' ' + words[std::size_t(texture.wrap[1])];
+  }
+
+  /// The file beside the model is the texture's own, or shows the picture that is in the model's file.
+  bool isPicture(const std::string& path, const Texture& texture) const
+  {
+    if (!this->TheInstance.model->holds(texture))
+    {
+      return hashOfFile(path) == hashOfFile(texture.path);
+    }
+    std::string problem;
+    const std::shared_ptr<const Image> image = decodeTexture(path, problem);
+    return image && image->width == texture.image->width && image->rgba == texture.image->rgba;
+  }
+
   void picture(std::size_t triangle, Meter& looks)
   {
     const int index = this->materialOf(triangle).texture;
@@ -108,9 +129,11 @@ private:
       return;
     }
     const std::string path = this->Owner.absolute("models/" + name);
-    const bool same = !name.empty() && (texture->path.empty() || hashOfFile(path) == hashOfFile(texture->path));
-    looks.equal(
-      same, [&] { return this->offender("picture '" + name + '\'', "the bytes of '" + texture->path + '\''); });
+    const bool same = !name.empty() && this->isPicture(path, *texture);
+    looks.equal(same, [&] { return this->offender("picture '" + name + '\'', "that of '" + texture->path + '\''); });
+    const std::string wrap = wrapText(*texture);
+    const std::string found = this->Ply.wrap(triangle);
+    looks.equal(found == wrap, [&] { return this->offender('\'' + name + "' wrapped '" + found + '\'', wrap); });
   }
 
   const Dataset& Owner;

@@ -55,6 +55,14 @@ public:
       {
         words >> second;
         this->Pictures.push_back(second);
+        this->Wraps.emplace_back();
+      }
+      else if (first == "comment" && second == "TextureWrap" && !this->Wraps.empty())
+      {
+        words >> second;
+        this->Wraps.back() = second;
+        words >> second;
+        this->Wraps.back() += ' ' + second;
       }
       else if (first == "property")
       {
@@ -74,9 +82,10 @@ public:
   {
     std::ostringstream header;
     header << "ply\nformat binary_little_endian 1.0\n";
-    for (const std::string& picture : this->Pictures)
+    for (std::size_t i = 0; i < this->Pictures.size(); ++i)
     {
-      header << "comment TextureFile " << picture << '\n';
+      header << "comment TextureFile " << this->Pictures[i] << '\n';
+      header << (this->Wraps[i].empty() ? "" : "comment TextureWrap " + this->Wraps[i] + '\n');
     }
     header << "element vertex " << this->Vertices.size()
            << "\nproperty double x\nproperty double y\nproperty double z\nproperty float nx\nproperty float ny"
@@ -102,13 +111,16 @@ public:
     return this->Vertices[std::size_t(this->Triangles[triangle][std::size_t(k)])];
   }
   /// Name of the picture on a triangle; "" for none.
-  std::string picture(std::size_t triangle) const
-  {
-    const std::int32_t number = this->HasNumbers ? this->Numbers[triangle] : 0;
-    return number < 0 || std::size_t(number) >= this->Pictures.size() ? "" : this->Pictures[std::size_t(number)];
-  }
+  std::string picture(std::size_t triangle) const { return this->ofTriangle(this->Pictures, triangle); }
+  /// "clamp mirror": what is beyond the picture on a triangle, along u and v; "" where it repeats.
+  std::string wrap(std::size_t triangle) const { return this->ofTriangle(this->Wraps, triangle); }
 
 private:
+  std::string ofTriangle(const std::vector<std::string>& of, std::size_t triangle) const
+  {
+    const std::int32_t number = this->HasNumbers ? this->Numbers[triangle] : 0;
+    return number < 0 || std::size_t(number) >= of.size() ? "" : of[std::size_t(number)];
+  }
   template <typename T>
   void take(T* values, std::size_t count)
   {
@@ -162,6 +174,7 @@ private:
   bool HasUvs = false;
   bool HasNumbers = false;
   std::vector<std::string> Pictures;
+  std::vector<std::string> Wraps;
   std::vector<PlyVertex> Vertices;
   std::vector<std::array<std::int32_t, 3>> Triangles;
   std::vector<std::int32_t> Numbers;

@@ -12,10 +12,20 @@ namespace
 constexpr double texelSlack = 1e-6;
 
 /// The texel that holds a place, counted from the lower left; a texture repeats.
-Eigen::Vector3d texelAt(const Image& image, const Eigen::Array2d& place)
+Eigen::Vector3d texelAt(const Texture& texture, const Eigen::Array2d& place)
 {
+  const Image& image = *texture.image;
   const Eigen::Array2d size(image.width, image.height);
-  const Eigen::Array2d cell = place.floor() - (place.floor() / size).floor() * size;
+  Eigen::Array2d cell = place.floor();
+  for (int i = 0; i < 2; ++i)
+  {
+    const bool odd = std::fmod(std::floor(cell[i] / size[i]), 2) != 0;
+    const double tiled = cell[i] - std::floor(cell[i] / size[i]) * size[i];
+    const TextureWrap wrap = texture.wrap[std::size_t(i)];
+    cell[i] = wrap == TextureWrap::Clamp           ? std::min(std::max(cell[i], 0.0), size[i] - 1)
+              : wrap == TextureWrap::Mirror && odd ? size[i] - 1 - tiled
+                                                   : tiled;
+  }
   const std::size_t row = std::size_t(image.height) - 1 - std::size_t(cell.y());
   const std::uint8_t* rgba = &image.rgba[(row * image.width + std::size_t(cell.x())) * 4];
   return Eigen::Vector3d(rgba[0], rgba[1], rgba[2]) / 255;
@@ -46,14 +56,15 @@ void meterColor(const Instance& instance, const Hit& hit, const Eigen::Vector3d&
     {
       uv += weights[i] * model.uvs[model.triangles[hit.triangle][i]];
     }
-    const Image& image = *model.textures[material.texture].image;
+    const Texture& texture = model.textures[material.texture];
+    const Image& image = *texture.image;
     const Eigen::Array2d place = uv.array() * Eigen::Array2d(image.width, image.height);
     texels.clear();
     for (const double x : { -texelSlack, texelSlack })
     {
       for (const double y : { -texelSlack, texelSlack })
       {
-        texels.push_back(texelAt(image, place + Eigen::Array2d(x, y)));
+        texels.push_back(texelAt(texture, place + Eigen::Array2d(x, y)));
       }
     }
   }

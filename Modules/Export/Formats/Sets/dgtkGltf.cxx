@@ -173,10 +173,13 @@ Json attributesOf(Buffer& buffer, const ModelPly& model, bool mirrored, bool col
   return attributes;
 }
 
-std::string pictureOf(const ModelPly& model, std::size_t triangle)
+Look lookOf(const ModelPly& model, std::size_t triangle)
 {
   const int number = model.textures[triangle];
-  return number < 0 ? "" : model.pictures[static_cast<std::size_t>(number)];
+  Look look;
+  look.picture = number < 0 ? "" : model.pictures[static_cast<std::size_t>(number)];
+  look.wrap = number < 0 ? "" : model.wraps[static_cast<std::size_t>(number)];
+  return look;
 }
 
 /// Whether triangles have one colour each, and these are few.
@@ -191,11 +194,20 @@ bool hasFewLooks(const ModelPly& model)
     {
       return false;
     }
-    looks.insert({ pictureOf(model, i), model.colors[a] });
+    Look look = lookOf(model, i);
+    look.color = model.colors[a];
+    looks.insert(look);
   }
   return looks.size() <= few;
 }
 } // namespace
+
+Json samplerOf(const std::string& wrap)
+{
+  const auto mode = [](const std::string& word) { return word == "clamp" ? 33071 : word == "mirror" ? 33648 : 10497; };
+  const std::size_t blank = wrap.find(' ');
+  return { { "wrapS", mode(wrap.substr(0, blank)) }, { "wrapT", mode(wrap.substr(blank + 1)) } };
+}
 
 Json meshOf(
   Buffer& buffer, const ModelPly& model, bool mirrored, const std::function<std::size_t(const Look&)>& materials)
@@ -205,8 +217,7 @@ Json meshOf(
   for (std::size_t i = 0; i < model.triangles.size(); ++i)
   {
     auto corners = model.triangles[i];
-    Look look;
-    look.picture = pictureOf(model, i);
+    Look look = lookOf(model, i);
     look.color = few ? model.colors[corners[0]] : look.color;
     if (mirrored)
     {

@@ -66,12 +66,15 @@ void animate(Json& animation, Buffer& buffer, std::size_t node, const std::vecto
 struct Look
 {
   std::string picture;                                ///< "" for none
+  std::string wrap;                                   ///< as ModelPly has it
   std::array<std::uint8_t, 3> color{ 255, 255, 255 }; ///< sRGB
   bool operator<(const Look& other) const
   {
-    return std::tie(this->picture, this->color) < std::tie(other.picture, other.color);
+    return std::tie(this->picture, this->wrap, this->color) < std::tie(other.picture, other.wrap, other.color);
   }
 };
+/// The sampler of a texture that is wrapped so.
+Json samplerOf(const std::string& wrap);
 /// Linear light of sRGB of 8 bits.
 double linear(std::uint8_t level);
 /// A mesh of one primitive for each look. A model of more looks than a few has its colours at its vertices. `materials`

@@ -284,6 +284,11 @@ private:
       factors["baseColorTexture"] = { { "index", this->Asset["textures"].size() } };
       this->Asset["textures"].push_back({ { "source", this->Asset["images"].size() } });
       this->Asset["images"].push_back({ { "uri", textureName(look.picture) } });
+      if (!look.wrap.empty())
+      {
+        this->Asset["textures"].back()["sampler"] = this->Asset["samplers"].size();
+        this->Asset["samplers"].push_back(gltf::samplerOf(look.wrap));
+      }
     }
     Json material{ { "pbrMetallicRoughness", factors }, { "doubleSided", true } };
     if (!look.picture.empty() && isTranslucent(Folder(this->Dataset.folder()).fileAt("models/" + look.picture)))

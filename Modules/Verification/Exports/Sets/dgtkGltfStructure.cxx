@@ -4,6 +4,7 @@
 #include "dgtkJsonFile.h"
 
 #include <cstring>
+#include <map>
 #include <set>
 
 namespace dgtk
@@ -16,7 +17,7 @@ using Json = nlohmann::json;
 /// Which entries of the asset's lists something refers to.
 struct Uses
 {
-  std::set<std::size_t> cameras, meshes, lights, materials, textures, images, samplers, accessors, views;
+  std::set<std::size_t> cameras, meshes, lights, materials, textures, images, wraps, samplers, accessors, views;
   std::set<std::size_t> vertices, indices; ///< of the accessors
 };
 
@@ -66,6 +67,10 @@ Uses usesIn(const Json& asset)
   for (const Json& texture : asset.value("textures", Json::array()))
   {
     uses.images.insert(texture.at("source").get<std::size_t>());
+    if (texture.contains("sampler"))
+    {
+      uses.wraps.insert(texture.at("sampler").get<std::size_t>());
+    }
   }
   uses.accessors = uses.vertices;
   uses.accessors.insert(uses.indices.begin(), uses.indices.end());
@@ -104,6 +109,17 @@ bool isDescribed(const Json& asset, std::size_t index, const Eigen::MatrixXd& va
   return right;
 }
 } // namespace
+
+std::string gltfWrap(const Json& asset, const Json& texture)
+{
+  if (!texture.contains("sampler"))
+  {
+    return {};
+  }
+  const std::map<int, std::string> words{ { 10497, " repeat" }, { 33071, " clamp" }, { 33648, " mirror" } };
+  const Json& sampler = asset.at("samplers").at(texture.at("sampler").get<std::size_t>());
+  return words.at(sampler.at("wrapS").get<int>()) + words.at(sampler.at("wrapT").get<int>());
+}
 
 Eigen::VectorXd gltfList(const Json& list, std::size_t count)
 {
@@ -182,7 +198,7 @@ void judgeGltfStructure(ExportJudge& judge, const std::string& file, const Json&
                     uses.materials.size() == list("materials") && uses.textures.size() == list("textures") &&
                     uses.images.size() == list("images") && uses.lights.size() == lights.size() &&
                     uses.samplers.size() == samplers.size() && uses.accessors.size() == list("accessors") &&
-                    uses.views.size() == list("bufferViews"));
+                    uses.views.size() == list("bufferViews") && uses.wraps.size() == list("samplers"));
   for (const Json& camera : document.value("cameras", none))
   {
     holds("cameras", camera.at("type") == "perspective");

@@ -17,6 +17,9 @@ namespace dgtk
 /// A list of so many numbers; std::out_of_range for another.
 Eigen::VectorXd gltfList(const nlohmann::json& list, std::size_t count);
 
+/// " clamp mirror": what is beyond the picture of a texture, along u and v; "" where nothing is said of it.
+std::string gltfWrap(const nlohmann::json& asset, const nlohmann::json& texture);
+
 /// The numbers of an asset's accessors.
 class GltfNumbers
 {

@@ -303,7 +303,7 @@ private:
     return corners;
   }
 
-  /// The picture on a primitive; "" for none.
+  /// The picture on a primitive, and what is beyond it; "" for none.
   std::string pictureOf(const Json& material) const
   {
     const Json& look = material.at("pbrMetallicRoughness");
@@ -313,18 +313,18 @@ private:
     }
     const Json& texture = this->Document.at("textures").at(look.at("baseColorTexture").at("index").get<std::size_t>());
     const std::string uri = this->Document.at("images").at(texture.at("source").get<std::size_t>()).at("uri");
-    return uri.substr(uri.rfind('/') + 1);
+    return uri.substr(uri.rfind('/') + 1) + gltfWrap(this->Document, texture);
   }
 
   void judgeMesh(const Json& mesh, const PlyFile& model, bool mirrored)
   {
-    std::multimap<std::array<std::size_t, 3>, std::string> triangles; // and their pictures
+    std::multimap<std::array<std::size_t, 3>, std::string> triangles; // and their pictures, wrapped
     for (std::size_t i = 0; i < model.triangles(); ++i)
     {
       const auto& t = model.triangle(i);
       const auto corner = [&](std::size_t k) { return std::size_t(t[k]); };
       const auto corners = sortedCorners({ corner(0), corner(mirrored ? 2 : 1), corner(mirrored ? 1 : 2) });
-      triangles.emplace(corners, model.picture(i));
+      triangles.emplace(corners, model.picture(i) + (model.wrap(i).empty() ? "" : ' ' + model.wrap(i)));
     }
     for (const Json& primitive : mesh.at("primitives"))
     {
@@ -350,7 +350,8 @@ private:
         const std::string expected = found->second;
         triangles.erase(found);
         this->Judge.holds("textures", this->File, mesh.at("name"),
-          picture == expected || (picture.empty() && this->isLeftOut(expected)), picture, expected);
+          picture == expected || (picture.empty() && this->isLeftOut(expected.substr(0, expected.find(' ')))), picture,
+          expected);
         for (const std::size_t corner : corners)
         {
           const Eigen::Vector3d color = factor.head(3).cwiseProduct(colors.row(Eigen::Index(corner)).transpose());

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkGltfFile.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace dgtk::import
+{
+
+namespace
+{
+using Json = GltfFile::Json;
+
+constexpr std::size_t mostGltfNodes = 1'000'000;
+
+std::size_t littleWord(const std::string& bytes, std::size_t at)
+{
+  std::size_t value = 0;
+  for (std::size_t i = 4; i-- > 0;)
+  {
+    value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  }
+  return value;
+}
+
+/// RFC 4648
+std::string fromBase64(const std::string& text, std::size_t begin)
+{
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (std::size_t i = begin; i < text.size() && text[i] != '='; ++i)
+  {
+    const std::size_t digit = digits.find(text[i]);
+    if (digit == std::string::npos)
+    {
+      GltfFile::fail("a buffer is not base64");
+    }
+    group = group << 6 | static_cast<std::uint32_t>(digit);
+    bits += 6;
+    if (bits >= 8)
+    {
+      bits -= 8;
+      bytes += static_cast<char>(group >> bits & 255);
+    }
+  }
+  return bytes;
+}
+
+std::size_t bytesOf(int type) { return type == 5126 || type == 5125 ? 4 : type == 5122 || type == 5123 ? 2 : 1; }
+
+/// An integer as it is, or a share of the largest of its type.
+double number(const char* from, int type, bool normalized)
+{
+  const auto as = [from](auto value)
+  {
+    std::memcpy(&value, from, sizeof value);
+    return static_cast<double>(value);
+  };
+  const auto share = [normalized](double value, double one)
+  { return normalized ? std::max(value / one, -1.0) : value; };
+  switch (type)
+  {
+    case 5120:
+      return share(as(std::int8_t(0)), 127);
+    case 5121:
+      return share(as(std::uint8_t(0)), 255);
+    case 5122:
+      return share(as(std::int16_t(0)), 32767);
+    case 5123:
+      return share(as(std::uint16_t(0)), 65535);
+    case 5125:
+      return as(std::uint32_t(0));
+    case 5126:
+      return as(float(0));
+    default:
+      GltfFile::fail("an accessor is of an unexpected type");
+  }
+}
+} // namespace
+
+void GltfFile::fail(const char* what) { throw std::runtime_error(what); }
+
+GltfFile::GltfFile(const std::string& path, const ReadContents& contentsOf)
+  : Folder(std::filesystem::path(path).parent_path())
+  , ContentsOf(contentsOf)
+{
+  const std::string bytes = contentsOf(path);
+  if (bytes.compare(0, 4, "glTF") != 0)
+  {
+    this->Root = Json::parse(bytes);
+    return;
+  }
+  const std::size_t length = littleWord(bytes, 12);
+  this->Root = Json::parse(bytes.substr(20, length));
+  const std::size_t binary = 20 + (length + 3) / 4 * 4;
+  if (binary + 8 <= bytes.size())
+  {
+    this->Binary = bytes.substr(binary + 8, littleWord(bytes, binary));
+  }
+}
+
+std::vector<double> GltfFile::list(
+  const Json& where, int type, std::size_t count, std::size_t components, bool normalized)
+{
+  const Json& view = this->item("bufferViews", where.at("bufferView"));
+  const std::string& buffer = this->buffer(view.at("buffer"));
+  const std::size_t size = bytesOf(type);
+  const std::size_t stride = view.value("byteStride", size * components);
+  const std::size_t begin = view.value("byteOffset", std::size_t(0)) + where.value("byteOffset", std::size_t(0));
+  if (count > buffer.size() || stride > 4096 || begin > buffer.size() ||
+      (count > 0 && (count - 1) * stride + size * components > buffer.size() - begin))
+  {
+    GltfFile::fail("an accessor reaches beyond its buffer");
+  }
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < count * components; ++i)
+  {
+    const char* const from = buffer.data() + begin + i / components * stride + i % components * size;
+    numbers.push_back(number(from, type, normalized));
+  }
+  return numbers;
+}
+
+std::vector<double> GltfFile::numbers(std::size_t index, std::size_t components, Integers integers)
+{
+  constexpr std::size_t mostWithoutBytes = 1 << 24;
+  const Json& accessor = this->item("accessors", index);
+  static const std::map<std::string, std::size_t> widths = { { "SCALAR", 1 }, { "VEC2", 2 }, { "VEC3", 3 },
+    { "VEC4", 4 }, { "MAT4", 16 } };
+  if (widths.at(accessor.at("type")) != components)
+  {
+    GltfFile::fail("an accessor is of an unexpected type");
+  }
+  const int type = accessor.at("componentType");
+  const std::size_t count = accessor.at("count");
+  const bool normalized = integers == Integers::Shares || accessor.value("normalized", false);
+  if (!accessor.contains("bufferView") && count > mostWithoutBytes)
+  {
+    GltfFile::fail("an accessor without bytes is too long");
+  }
+  std::vector<double> numbers = accessor.contains("bufferView")
+                                  ? this->list(accessor, type, count, components, normalized)
+                                  : std::vector<double>(count * components);
+  if (accessor.contains("sparse"))
+  {
+    const Json& sparse = accessor.at("sparse");
+    const std::size_t changes = sparse.at("count");
+    const Json& indices = sparse.at("indices");
+    const std::vector<double> places = this->list(indices, indices.at("componentType"), changes, 1, false);
+    const std::vector<double> values = this->list(sparse.at("values"), type, changes, components, normalized);
+    for (std::size_t i = 0; i < changes; ++i)
+    {
+      if (!(places[i] < double(count)))
+      {
+        GltfFile::fail("an accessor changes what is not there");
+      }
+      std::copy_n(values.begin() + std::ptrdiff_t(i * components), components,
+        numbers.begin() + std::ptrdiff_t(std::size_t(places[i]) * components));
+    }
+  }
+  return numbers;
+}
+
+const std::string& GltfFile::buffer(std::size_t index)
+{
+  const auto known = this->Buffers.find(index);
+  if (known != this->Buffers.end())
+  {
+    return known->second;
+  }
+  const Json& buffer = this->item("buffers", index);
+  const std::string uri = buffer.value("uri", "");
+  const std::size_t comma = uri.find(',');
+  std::string& bytes = this->Buffers[index];
+  bytes = uri.empty()                  ? this->Binary
+          : uri.rfind("data:", 0) == 0 ? fromBase64(uri, comma == std::string::npos ? uri.size() : comma + 1)
+                                       : this->ContentsOf((this->Folder / uri).string());
+  return bytes;
+}
+
+NodeMatch::NodeMatch(const GltfFile& file, const Scene& scene)
+  : File(file)
+  , Whole(scene)
+  , Children(scene.nodes.size())
+{
+  for (std::size_t i = 1; i < scene.nodes.size(); ++i)
+  {
+    this->Children[static_cast<std::size_t>(scene.nodes[i].parent)].push_back(i);
+  }
+  const Json& roots = file.item("scenes", file.root().value("scene", std::size_t(0))).at("nodes");
+  if (roots.size() == 1)
+  {
+    this->match(roots[0], 0);
+    return;
+  }
+  this->matchAll(roots, this->Children[0]);
+}
+
+void NodeMatch::match(std::size_t node, std::size_t index)
+{
+  const Json& from = this->File.item("nodes", node);
+  if (this->Index.size() > mostGltfNodes || !this->Index.emplace(node, static_cast<std::int32_t>(index)).second)
+  {
+    GltfFile::fail("a node has two parents");
+  }
+  const std::string name = from.value("name", "");
+  if (!name.empty() && name != this->Whole.nodes[index].name)
+  {
+    GltfFile::fail("nodes are not as expected");
+  }
+  this->matchAll(from.value("children", Json::array()), this->Children[index]);
+}
+
+void NodeMatch::matchAll(const Json& nodes, const std::vector<std::size_t>& indices)
+{
+  if (nodes.size() != indices.size())
+  {
+    GltfFile::fail("nodes are not as expected");
+  }
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    this->match(nodes[i], indices[i]);
+  }
+}
+
+} // namespace dgtk::import

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkGltfMeshes.h"
+
+#include "dgtkGltfPlacement.h"
+#include "dgtkPortableMath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace dgtk::import
+{
+
+namespace
+{
+using Json = GltfFile::Json;
+using Integers = GltfFile::Integers;
+constexpr int floatType = 5126;
+
+std::uint8_t byteOf(double share) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))); }
+
+class MeshRepair
+{
+public:
+  MeshRepair(GltfFile& file, Scene& scene)
+    : File(file)
+    , Whole(scene)
+    , IsDone(scene.meshes.size())
+  {
+  }
+
+  /// `meshes`: of the scene, one a primitive.
+  void run(const Json& node, const std::vector<std::uint32_t>& meshes)
+  {
+    const Json& primitives = this->File.item("meshes", node.at("mesh")).at("primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+    {
+      if (meshes.size() != primitives.size())
+      {
+        GltfFile::fail("meshes are not as expected");
+      }
+      if (!this->IsDone.at(meshes[i]))
+      {
+        this->IsDone[meshes[i]] = true;
+        this->run(node, primitives.at(i), this->Whole.meshes[meshes[i]]);
+      }
+    }
+  }
+
+private:
+  void run(const Json& node, const Json& primitive, Mesh& mesh)
+  {
+    const Json& attributes = primitive.at("attributes");
+    const Json none = Json::object();
+    const Json& material =
+      primitive.contains("material") ? this->File.item("materials", primitive.at("material")) : none;
+    this->positions(primitive, mesh);
+    if (this->isStored(attributes, "NORMAL"))
+    {
+      mesh.normals = this->vectors(attributes.at("NORMAL"), mesh);
+    }
+    if (attributes.contains("COLOR_0"))
+    {
+      this->colors(attributes.at("COLOR_0"), material.value("alphaMode", "OPAQUE") == "BLEND", mesh);
+      this->light(material, this->Whole.materials.at(std::size_t(mesh.material)));
+    }
+    if (node.contains("skin") && this->isStored(attributes, "WEIGHTS_0"))
+    {
+      this->weights(attributes, this->File.item("skins", node.at("skin")).at("joints").size(), mesh);
+    }
+    const std::vector<Placement> all = placementsOf(material);
+    this->coordinates(attributes, all.empty() ? Placement() : all.front(), mesh);
+    if (std::any_of(all.begin(), all.end(), [&all](const Placement& p) { return !(p == all.front()); }) &&
+        this->Said.insert(primitive.at("material").get<std::size_t>()).second)
+    {
+      this->Whole.warnings.push_back("material \"" + material.value("name", "").substr(0, 200) +
+                                     "\" has pictures in several places: all lie where the first does");
+    }
+  }
+
+  /// Whether an attribute is there, and not as the importer takes it to be.
+  bool isStored(const Json& attributes, const std::string& name) const
+  {
+    return attributes.contains(name) &&
+           this->File.item("accessors", attributes.at(name)).at("componentType") != floatType;
+  }
+
+  std::vector<double> numbers(std::size_t accessor, std::size_t components, Integers integers, const Mesh& mesh)
+  {
+    std::vector<double> all = this->File.numbers(accessor, components, integers);
+    if (all.size() != components * mesh.positions.size())
+    {
+      GltfFile::fail("attributes and vertices do not match");
+    }
+    return all;
+  }
+
+  std::vector<Float3> vectors(std::size_t accessor, const Mesh& mesh)
+  {
+    const std::vector<double> all = this->numbers(accessor, 3, Integers::AsSaid, mesh);
+    std::vector<Float3> to;
+    for (std::size_t i = 0; i + 2 < all.size(); i += 3)
+    {
+      to.push_back({ float(all[i]), float(all[i + 1]), float(all[i + 2]) });
+    }
+    return to;
+  }
+
+  /// And those of morph targets, which are differences.
+  void positions(const Json& primitive, Mesh& mesh)
+  {
+    const Json& attributes = primitive.at("attributes");
+    const bool stored = this->isStored(attributes, "POSITION");
+    if (stored)
+    {
+      mesh.positions = this->vectors(attributes.at("POSITION"), mesh);
+    }
+    const Json targets = primitive.value("targets", Json::array());
+    for (std::size_t t = 0; t < std::min(targets.size(), mesh.targets.size()); ++t)
+    {
+      const bool moves = targets[t].contains("POSITION");
+      if (!stored && !this->isStored(targets[t], "POSITION"))
+      {
+        continue;
+      }
+      mesh.targets[t].positions = mesh.positions;
+      const std::vector<Float3> by = moves ? this->vectors(targets[t].at("POSITION"), mesh) : std::vector<Float3>();
+      for (std::size_t i = 0; i < 3 * by.size(); ++i)
+      {
+        mesh.targets[t].positions[i / 3][i % 3] += by[i / 3][i % 3];
+      }
+    }
+  }
+
+  /// Linear light; alpha counts where the material is to be seen through.
+  void colors(std::size_t accessor, bool translucent, Mesh& mesh)
+  {
+    const std::size_t channels = this->File.item("accessors", accessor).at("type") == "VEC4" ? 4 : 3;
+    const std::vector<double> all = this->numbers(accessor, channels, Integers::Shares, mesh);
+    mesh.colors.resize(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.colors.size(); ++i)
+    {
+      for (std::size_t c = 0; c < 3; ++c)
+      {
+        mesh.colors[i][c] = byteOf(portable::srgbFromLinear(std::clamp(all[channels * i + c], 0.0, 1.0)));
+      }
+      mesh.colors[i][3] = channels == 4 && translucent ? byteOf(all[channels * i + 3]) : 255;
+    }
+  }
+
+  /// What glows has no colours of vertices here: an unlit material is lit instead.
+  void light(const Json& from, Material& to)
+  {
+    const Json extensions = from.value("extensions", Json::object());
+    if (extensions.contains("KHR_materials_unlit") && to.diffuse == std::array<double, 3>{ 0, 0, 0 })
+    {
+      to.diffuse = to.emission;
+      std::transform(to.diffuse.begin(), to.diffuse.end(), to.ambient.begin(), [](double d) { return 0.2 * d; });
+      to.emission = { 0, 0, 0 };
+      this->Whole.warnings.push_back(
+        "material \"" + to.name.substr(0, 200) + "\" is lit: an unlit one would not show the colours of vertices");
+    }
+  }
+
+  void weights(const Json& attributes, std::size_t joints, Mesh& mesh)
+  {
+    if (mesh.bones.size() != joints)
+    {
+      GltfFile::fail("joints are not as expected");
+    }
+    for (Bone& bone : mesh.bones)
+    {
+      bone.vertices.clear();
+      bone.weights.clear();
+    }
+    for (int set = 0; attributes.contains("WEIGHTS_" + std::to_string(set)); ++set)
+    {
+      const std::string of = std::to_string(set);
+      const std::vector<double> weights = this->numbers(attributes.at("WEIGHTS_" + of), 4, Integers::Shares, mesh);
+      const std::vector<double> names = this->numbers(attributes.at("JOINTS_" + of), 4, Integers::AsSaid, mesh);
+      for (std::size_t i = 0; i < weights.size(); ++i)
+      {
+        if (weights[i] > 0)
+        {
+          Bone& bone = mesh.bones.at(std::size_t(std::max(names[i], 0.0)));
+          bone.vertices.push_back(std::uint32_t(i / 4));
+          bone.weights.push_back(float(weights[i]));
+        }
+      }
+    }
+  }
+
+  void coordinates(const Json& attributes, const Placement& where, Mesh& mesh)
+  {
+    const std::string name = "TEXCOORD_" + std::to_string(where.set);
+    if (attributes.contains(name) && (where.set != where.importedSet || this->isStored(attributes, name)))
+    {
+      const std::vector<double> all = this->numbers(attributes.at(name), 2, Integers::AsSaid, mesh);
+      mesh.uvs.resize(mesh.positions.size());
+      for (std::size_t i = 0; i < mesh.uvs.size(); ++i)
+      {
+        mesh.uvs[i] = { float(all[2 * i]), float(1 - all[2 * i + 1]) };
+      }
+    }
+    if (!where.isPlain())
+    {
+      place(where, mesh);
+    }
+  }
+
+  GltfFile& File;
+  Scene& Whole;
+  std::vector<bool> IsDone;
+  std::set<std::size_t> Said;
+};
+} // namespace
+
+void repairMeshes(GltfFile& file, const NodeMatch& nodes, Scene& scene)
+{
+  MeshRepair repair(file, scene);
+  const Json all = file.root().value("nodes", Json::array());
+  for (std::size_t n = 0; n < all.size(); ++n)
+  {
+    const std::int32_t index = nodes.of(n);
+    if (index != noIndex && all[n].contains("mesh"))
+    {
+      repair.run(all[n], scene.nodes[static_cast<std::size_t>(index)].meshes);
+    }
+  }
+}
+
+} // namespace dgtk::import

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkGltfMaker.h"
+#include "dgtkModelChecks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace dgtk::test;
+using Json = nlohmann::json;
+
+namespace
+{
+/// A triangle of one primitive, whose attributes are yet to be named.
+GltfMaker bare()
+{
+  GltfMaker maker;
+  maker.json["scenes"] = { { { "nodes", { 0 } } } };
+  maker.json["nodes"] = { { { "mesh", 0 } } };
+  maker.json["meshes"] = { { { "primitives", { { { "attributes", Json::object() }, { "material", 0 } } } } } };
+  maker.json["materials"] = { { { "name", "m" } } };
+  return maker;
+}
+
+Json& attributesOf(GltfMaker& maker) { return maker.json["meshes"][0]["primitives"][0]["attributes"]; }
+
+const std::vector<float> corners{ 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+
+/// Colours of the corners, in the order of the triangle.
+std::vector<std::array<std::uint8_t, 4>> colorsOf(const GltfMaker& maker)
+{
+  const auto model = readBytes("glb", maker.glb());
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+  EXPECT_EQ(brokenPromise(*model), "");
+  std::vector<std::array<std::uint8_t, 4>> all;
+  for (const std::uint32_t vertex : model->triangles.at(0))
+  {
+    all.push_back(model->colors.at(vertex));
+  }
+  return all;
+}
+} // namespace
+
+TEST(GltfMeshes, ColoursOfVertices)
+{
+  using Colors = std::vector<std::array<std::uint8_t, 4>>;
+  GltfMaker floats = bare();
+  attributesOf(floats)["POSITION"] = floats.floats("VEC3", corners);
+  attributesOf(floats)["COLOR_0"] = floats.floats("VEC3", { 1, 0, 0, 0.5f, 2, -1, 0, 0, 0.25f });
+  EXPECT_EQ(colorsOf(floats), (Colors{ { 255, 0, 0, 255 }, { 188, 255, 0, 255 }, { 0, 0, 137, 255 } })) << "sRGB";
+
+  GltfMaker bytes = bare();
+  attributesOf(bytes)["POSITION"] = bytes.floats("VEC3", corners);
+  attributesOf(bytes)["COLOR_0"] = bytes.bytes("VEC4", { 255, 0, 0, 51, 0, 255, 0, 102, 0, 0, 255, 255 });
+  bytes.json["accessors"][std::size_t(attributesOf(bytes)["COLOR_0"])]["normalized"] = true;
+  EXPECT_EQ(colorsOf(bytes), (Colors{ { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 } }));
+  bytes.json["materials"][0]["alphaMode"] = "BLEND";
+  EXPECT_EQ(colorsOf(bytes), (Colors{ { 255, 0, 0, 51 }, { 0, 255, 0, 102 }, { 0, 0, 255, 255 } }));
+
+  bytes.json["extensionsUsed"] = { "KHR_materials_unlit" };
+  bytes.json["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+  const auto lit = readBytes("glb", bytes.glb());
+  EXPECT_EQ(lit->materials.at(0).diffuse, Eigen::Vector3d(1, 1, 1));
+  EXPECT_TRUE(lit->materials[0].emission.isZero());
+  EXPECT_THAT(
+    lit->warnings, testing::ElementsAre("material \"m\" is lit: an unlit one would not show the colours of vertices"));
+
+  GltfMaker sparse = bare(); // black but for the third
+  attributesOf(sparse)["POSITION"] = sparse.floats("VEC3", corners);
+  const int values = sparse.floats("VEC3", { 1, 1, 1 });
+  const int places = sparse.shorts("SCALAR", { 2 });
+  const auto view = [&sparse](int accessor) { return sparse.json["accessors"][std::size_t(accessor)]["bufferView"]; };
+  sparse.json["accessors"].push_back({ { "componentType", 5126 }, { "type", "VEC3" }, { "count", 3 },
+    { "sparse", { { "count", 1 }, { "indices", { { "bufferView", view(places) }, { "componentType", 5123 } } },
+                  { "values", { { "bufferView", view(values) } } } } } });
+  attributesOf(sparse)["COLOR_0"] = sparse.json["accessors"].size() - 1;
+  EXPECT_EQ(colorsOf(sparse), (Colors{ { 0, 0, 0, 255 }, { 0, 0, 0, 255 }, { 255, 255, 255, 255 } }));
+  sparse.json["accessors"].back()["sparse"]["count"] = 2; // beyond the bytes
+  EXPECT_THAT(readBytes("glb", sparse.glb())->warnings,
+    testing::Contains(
+      "colours of vertices and places of textures do not count: an accessor reaches beyond its buffer"));
+}
+
+TEST(GltfMeshes, QuantizedAttributes)
+{
+  GltfMaker maker = bare();
+  maker.json["extensionsRequired"] = { "KHR_mesh_quantization" };
+  maker.json["extensionsUsed"] = { "KHR_mesh_quantization" };
+  maker.json["nodes"][0]["scale"] = { 0.5, 0.5, 0.5 };
+  const auto padded = [](const std::vector<std::uint16_t>& rows) // vertices begin at multiples of 4 bytes
+  {
+    std::vector<std::uint16_t> all;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      all.push_back(rows[i]);
+      if (i % 3 == 2)
+      {
+        all.push_back(0);
+      }
+    }
+    return all;
+  };
+  const auto strided = [&](const std::vector<std::uint16_t>& rows)
+  {
+    const int accessor = maker.shorts("VEC4", padded(rows));
+    Json& made = maker.json["accessors"][std::size_t(accessor)];
+    made["type"] = "VEC3";
+    made["min"] = { 0, 0, 0 };
+    made["max"] = { 65535, 65535, 65535 };
+    maker.json["bufferViews"][made["bufferView"].get<std::size_t>()]["byteStride"] = 8;
+    return accessor;
+  };
+  attributesOf(maker)["POSITION"] = strided({ 0, 0, 4, 8, 0, 4, 0, 6, 4 }); // as they are
+  const int uvs = maker.shorts("VEC2", { 0, 0, 65535, 0, 0, 65535 });
+  maker.json["accessors"][std::size_t(uvs)]["normalized"] = true;
+  attributesOf(maker)["TEXCOORD_0"] = uvs;
+  const int normals = maker.bytes("VEC4", { 127, 0, 0, 0, 127, 0, 0, 0, 127, 0, 0, 0 });
+  Json& normal = maker.json["accessors"][std::size_t(normals)];
+  normal["type"] = "VEC3";
+  normal["componentType"] = 5120;
+  normal["normalized"] = true;
+  maker.json["bufferViews"][normal["bufferView"].get<std::size_t>()]["byteStride"] = 4;
+  attributesOf(maker)["NORMAL"] = normals;
+  maker.json["meshes"][0]["primitives"][0]["targets"] = { { { "POSITION", strided({ 2, 0, 0, 0, 0, 0, 0, 0, 2 }) } } };
+  maker.json["meshes"][0]["weights"] = { 0.5 };
+  const auto model = readBytes("glb", maker.glb());
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+  ASSERT_EQ(model->triangles.size(), 1u);
+  const auto& t = model->triangles[0];
+  const auto& at = model->rest->positions;
+  EXPECT_EQ(at[t[0]], Eigen::Vector3d(0.5, 0, 2)) << "half of a target that moves it by 2";
+  EXPECT_EQ(at[t[1]], Eigen::Vector3d(4, 0, 2));
+  EXPECT_EQ(at[t[2]], Eigen::Vector3d(0, 3, 2.5));
+  EXPECT_EQ(model->uvs[t[0]], Eigen::Vector2d(0, 1));
+  EXPECT_EQ(model->uvs[t[1]], Eigen::Vector2d(1, 1));
+  EXPECT_EQ(model->uvs[t[2]], Eigen::Vector2d(0, 0));
+  maker.json["accessors"][std::size_t(attributesOf(maker)["NORMAL"])]["componentType"] = 1;
+  EXPECT_THROW(readBytes("glb", maker.glb()), dgtk::InputError);
+}
+
+TEST(GltfMeshes, WeightsOfBytes)
+{
+  GltfMaker maker = bare();
+  attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+  attributesOf(maker)["JOINTS_0"] = maker.bytes("VEC4", { 0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0 });
+  const int weights = maker.bytes("VEC4", { 255, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0 });
+  maker.json["accessors"][std::size_t(weights)]["normalized"] = true;
+  attributesOf(maker)["WEIGHTS_0"] = weights;
+  maker.json["nodes"] = { { { "mesh", 0 }, { "skin", 0 } }, { { "name", "a" } },
+    { { "name", "b" }, { "translation", { 0, 0, 10 } } } };
+  maker.json["scenes"][0]["nodes"] = { 0, 1, 2 };
+  const int inverse = maker.floats("MAT4", { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, // both at the origin
+                                             1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 });
+  maker.json["skins"] = { { { "joints", { 1, 2 } }, { "inverseBindMatrices", inverse } } };
+  const auto model = readBytes("glb", maker.glb());
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+  const auto& t = model->triangles.at(0);
+  EXPECT_EQ(model->rest->positions[t[0]], Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(model->rest->positions[t[1]], Eigen::Vector3d(1, 0, 10));
+  EXPECT_NEAR(model->rest->positions[t[2]].z(), 8, 1e-6) << "four fifths of the way";
+}
+
+TEST(GltfMeshes, ExtensionsThatAFileNeeds)
+{
+  GltfMaker maker = bare();
+  attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+  maker.json["extensionsRequired"] = { "KHR_texture_basisu" };
+  EXPECT_THAT(readBytes("glb", maker.glb())->warnings,
+    testing::ElementsAre("the glTF extension \"KHR_texture_basisu\", which the file needs, is not read"));
+  maker.json["extensionsRequired"] = { "EXT_meshopt_compression" };
+  try
+  {
+    readBytes("glb", maker.glb());
+    FAIL();
+  }
+  catch (const dgtk::InputError& error)
+  {
+    EXPECT_THAT(
+      error.what(), testing::HasSubstr("needs the glTF extension EXT_meshopt_compression, which is not read"));
+  }
+}
