@@ -65,7 +65,7 @@ class TexturePlaces(ExportCase):
         corners = "".join(f"v {u} {-v} 0\nvt {u} {v}\n" for u, v in CORNERS)
         return self.write(name + ".obj", f"mtllib {name}.mtl\n{corners}usemtl m\nf 1/1 4/4 3/3 2/2\n")
 
-    def drawn(self, name, model, layers="uv,objects", *options):
+    def drawn(self, name, model, layers="uv,objects,points", *options):
         camera = {"name": "c", "width": WIDTH, "height": HEIGHT, "K": K, "eye": [0, 0, 3],
                   "lookAt": [0, 0, 0], "near": 0.1, "far": 10}
         self.write(name + ".json", json.dumps({"version": 1, "units": "m", "objects": [{"name": "o", "model": model}], "cameras": [camera]}))
@@ -116,7 +116,7 @@ class TexturePlaces(ExportCase):
             for inside in (True, False):
                 with self.subTest(modes=modes, inside=inside):
                     name = f"d{number}{inside}"
-                    found = self.drawn(name, self.gltf(f"m{number}{inside}", modes, {"rotation": 0.5}, inside), "uv,objects", "--models")
+                    found = self.drawn(name, self.gltf(f"m{number}{inside}", modes, {"rotation": 0.5}, inside), "uv,objects,points", "--models")
                     plys = [file for file in os.listdir(self.path(name, "models")) if file.endswith(".ply")]
                     comments = read_ply(self.path(name, "models", plys[0]))[0]
                     self.assertEqual(comments, [f"TextureFile {plys[0][:-4]}_0.png"] +
@@ -133,7 +133,7 @@ class TexturePlaces(ExportCase):
 
     def test_the_referee_reads_them(self):
         model = self.gltf("m", ("clamp", "mirror"), {}, True)
-        self.drawn("d", model, "uv,objects", "--models")
+        self.drawn("d", model, "uv,objects,points", "--models")
         ply = next("models/" + file for file in os.listdir(self.path("d", "models")) if file.endswith(".ply"))
         png = ply[:-4] + "_0.png"
 

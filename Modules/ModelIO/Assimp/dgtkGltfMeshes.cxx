@@ -17,7 +17,10 @@ using Json = GltfFile::Json;
 using Integers = GltfFile::Integers;
 constexpr int floatType = 5126;
 
-std::uint8_t byteOf(double share) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))); }
+std::uint8_t byteOf(double share)
+{
+  return static_cast<std::uint8_t>(share > 0 ? std::lround(255 * std::min(share, 1.0)) : 0);
+}
 
 class MeshRepair
 {
@@ -142,7 +145,7 @@ private:
     {
       for (std::size_t c = 0; c < 3; ++c)
       {
-        mesh.colors[i][c] = byteOf(portable::srgbFromLinear(std::clamp(all[channels * i + c], 0.0, 1.0)));
+        mesh.colors[i][c] = byteOf(portable::srgbFromLinear(all[channels * i + c]));
       }
       mesh.colors[i][3] = channels == 4 && translucent ? byteOf(all[channels * i + 3]) : 255;
     }

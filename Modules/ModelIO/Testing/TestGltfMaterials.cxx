@@ -146,6 +146,8 @@ TEST(Gltf, TexturesLieWhereMaterialsPlaceThem)
   GltfMaker alone = placed({ { "index", 0 } }, { { "normalTexture", transformed({ { "scale", { 2, 2 } } }) } });
   alone.json["materials"][0]["pbrMetallicRoughness"].erase("baseColorTexture");
   expect(alone, { { 0, 0 }, { 2, 0 }, { 0, 2 } });
+  alone.json["materials"][0]["normalTexture"] = { { "index", 0 }, { "texCoord", 1 } };
+  expect(alone, { { 0.5, 0.25 } });
 }
 
 TEST(Gltf, SamplersSayHowPicturesGoOn)
@@ -220,6 +222,8 @@ TEST(Gltf, MaterialsOfExtensions)
       maker.json["extensionsUsed"].push_back(name);
       maker.json["extensionsRequired"].push_back(name);
     }
+    maker.json["images"] = { { { "uri", "glow.png" } } };
+    maker.json["textures"] = { { { "source", 0 } } };
     const auto model = readBytes("gltf", maker.gltf());
     EXPECT_THAT(model->warnings, testing::IsEmpty());
     return model->materials.at(0);
@@ -232,6 +236,10 @@ TEST(Gltf, MaterialsOfExtensions)
   EXPECT_EQ(unlit.emission[0], 1);
   EXPECT_TRUE(unlit.diffuse.isZero() && unlit.ambient.isZero() && unlit.specular.isZero());
   EXPECT_FALSE(unlit.physical);
+  EXPECT_EQ(
+    materialOf({ { "emissiveTexture", { { "index", 0 } } }, { "extensions", { { "KHR_materials_unlit", none } } } })
+      .emissionMap,
+    -1);
   const dgtk::Material glossy = materialOf({ { "pbrMetallicRoughness", surface },
     { "extensions", { { "KHR_materials_pbrSpecularGlossiness",
                       { { "diffuseFactor", { 0.5, 1, 0.25, 1 } }, { "specularFactor", { 1, 0.25, 0.5 } },

@@ -65,20 +65,46 @@ TEST(GltfMeshes, ColoursOfVertices)
   EXPECT_THAT(
     lit->warnings, testing::ElementsAre("material \"m\" is lit: an unlit one would not show the colours of vertices"));
 
-  GltfMaker sparse = bare(); // black but for the third
-  attributesOf(sparse)["POSITION"] = sparse.floats("VEC3", corners);
-  const int values = sparse.floats("VEC3", { 1, 1, 1 });
-  const int places = sparse.shorts("SCALAR", { 2 });
-  const auto view = [&sparse](int accessor) { return sparse.json["accessors"][std::size_t(accessor)]["bufferView"]; };
-  sparse.json["accessors"].push_back({ { "componentType", 5126 }, { "type", "VEC3" }, { "count", 3 },
-    { "sparse", { { "count", 1 }, { "indices", { { "bufferView", view(places) }, { "componentType", 5123 } } },
-                  { "values", { { "bufferView", view(values) } } } } } });
-  attributesOf(sparse)["COLOR_0"] = sparse.json["accessors"].size() - 1;
-  EXPECT_EQ(colorsOf(sparse), (Colors{ { 0, 0, 0, 255 }, { 0, 0, 0, 255 }, { 255, 255, 255, 255 } }));
-  sparse.json["accessors"].back()["sparse"]["count"] = 2; // beyond the bytes
-  EXPECT_THAT(readBytes("glb", sparse.glb())->warnings,
-    testing::Contains(
-      "colours of vertices and places of textures do not count: an accessor reaches beyond its buffer"));
+  const auto sparse = [](std::uint16_t place, int changes) // black but there
+  {
+    GltfMaker maker = bare();
+    attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+    const auto view = [&maker](int accessor) { return maker.json["accessors"][std::size_t(accessor)]["bufferView"]; };
+    const Json values = view(maker.floats("VEC3", { 1, 1, 1 }));
+    const Json places = view(maker.shorts("SCALAR", { place }));
+    maker.json["accessors"].push_back({ { "componentType", 5126 }, { "type", "VEC3" }, { "count", 3 },
+      { "sparse", { { "count", changes }, { "indices", { { "bufferView", places }, { "componentType", 5123 } } },
+                    { "values", { { "bufferView", values } } } } } });
+    attributesOf(maker)["COLOR_0"] = maker.json["accessors"].size() - 1;
+    return maker;
+  };
+  EXPECT_EQ(colorsOf(sparse(2, 1)), (Colors{ { 0, 0, 0, 255 }, { 0, 0, 0, 255 }, { 255, 255, 255, 255 } }));
+  const std::string lost = "colours of vertices and places of textures do not count: an accessor ";
+  EXPECT_THAT(readBytes("glb", sparse(2, 2).glb())->warnings, testing::Contains(lost + "reaches beyond its buffer"));
+  EXPECT_THROW(readBytes("glb", sparse(3, 1).glb()), dgtk::InputError);
+}
+
+TEST(GltfMeshes, TargetsOfOtherTypesThanTheirMesh)
+{
+  for (const bool stored : { false, true })
+  {
+    GltfMaker maker = bare();
+    const int floats = maker.floats("VEC3", corners);
+    const int bytes = maker.bytes("VEC4", { 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0 }); // the same
+    maker.json["accessors"][std::size_t(bytes)]["type"] = "VEC3";
+    maker.json["accessors"][std::size_t(bytes)]["min"] = { 0, 0, 0 };
+    maker.json["accessors"][std::size_t(bytes)]["max"] = { 1, 1, 0 };
+    maker.json["bufferViews"].back()["byteStride"] = 4;
+    attributesOf(maker)["POSITION"] = stored ? bytes : floats;
+    maker.json["meshes"][0]["primitives"][0]["targets"] = { { { "POSITION", stored ? floats : bytes } },
+      { { "NORMAL", floats } } };
+    maker.json["meshes"][0]["weights"] = { 0.5, 1 };
+    maker.json["extensionsUsed"] = { "KHR_mesh_quantization" };
+    const auto model = readBytes("glb", maker.glb());
+    const auto& t = model->triangles.at(0);
+    EXPECT_EQ(model->rest->positions[t[1]], Eigen::Vector3d(1.5, 0, 0)) << stored;
+    EXPECT_EQ(model->rest->positions[t[2]], Eigen::Vector3d(0, 1.5, 0)) << stored;
+  }
 }
 
 TEST(GltfMeshes, QuantizedAttributes)
@@ -131,6 +157,7 @@ TEST(GltfMeshes, QuantizedAttributes)
   EXPECT_EQ(at[t[0]], Eigen::Vector3d(0.5, 0, 2)) << "half of a target that moves it by 2";
   EXPECT_EQ(at[t[1]], Eigen::Vector3d(4, 0, 2));
   EXPECT_EQ(at[t[2]], Eigen::Vector3d(0, 3, 2.5));
+  EXPECT_EQ(model->rest->normals[t[0]], Eigen::Vector3f(1, 0, 0));
   EXPECT_EQ(model->uvs[t[0]], Eigen::Vector2d(0, 1));
   EXPECT_EQ(model->uvs[t[1]], Eigen::Vector2d(1, 1));
   EXPECT_EQ(model->uvs[t[2]], Eigen::Vector2d(0, 0));

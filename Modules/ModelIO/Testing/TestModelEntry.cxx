@@ -68,7 +68,8 @@ ModelEntry fullEntry()
   ModelEntry entry;
   entry.contents.model = model;
   entry.contents.pictures.resize(6);
-  entry.contents.pictures[1] = { "a.png", "b.png", "c d.png", "png", 2, 3, { 1, 2, 3, 4, 5 } };
+  entry.contents.pictures[1] = { "a.png", "b.png", "c d.png", "png", 2, 3, { 1, 2, 3, 4, 5 }, 0,
+    { TextureWrap::Clamp, TextureWrap::Mirror } };
   entry.contents.alpha = { { AlphaUse::CutOff, 0.25 }, { AlphaUse::Nothing, 0.5 } };
   entry.contents.notes = { { "a line", 5 }, { "decoding", ModelNote::ofDecoding }, { "another", ModelNote::none } };
   entry.contents.moreNotes = 17;
@@ -125,6 +126,7 @@ std::string said(const ModelEntry& entry)
   {
     out << x.name << '|' << x.alternative << '|' << x.unescaped << '|' << x.type << ' ' << x.width << ' ' << x.height;
     list(std::vector<std::vector<std::uint8_t>>{ x.bytes });
+    out << x.same << ' ' << int(x.wrap[0]) << ' ' << int(x.wrap[1]) << '\n';
   }
   for (const MaterialAlpha& x : c.alpha)
   {
@@ -183,6 +185,10 @@ TEST(ModelEntry, AnIndexBeyondItsListIsNone)
     { "an alpha more", false, [](ModelEntry& e) { e.contents.alpha.emplace_back(); } },
     { "a note's picture", false, [](ModelEntry& e) { e.contents.notes[0].picture = 6; } },
     { "a note's place", false, [](ModelEntry& e) { e.contents.notes[0].picture = -3; } },
+    { "the picture itself", false, [](ModelEntry& e) { e.contents.pictures[1].same = 1; } },
+    { "below the first picture", false, [](ModelEntry& e) { e.contents.pictures[1].same = -2; } },
+    { "no wrap", false, [](ModelEntry& e) { e.contents.pictures[0].wrap[0] = TextureWrap(3); } },
+    { "no wrap of v", false, [](ModelEntry& e) { e.contents.pictures[0].wrap[1] = TextureWrap(3); } },
     { "a part's material", false, model([](Model& m) { m.parts[0].material = 2; }) },
     { "below the first material", false, model([](Model& m) { m.parts[0].material = -1; }) },
     { "a gap before a part", false, model([](Model& m) { m.parts[0].firstTriangle = 1; }) },

@@ -416,13 +416,13 @@ TEST_F(PovExport, NotesSayWhatIsNotWritten)
     testing::ElementsAre("metallic and roughness are not written"));
   EXPECT_THAT(notesOf([](Material& material, SceneState&) { material.normalMap = 0; }),
     testing::ElementsAre("normal maps are not written"));
-  for (const double edge : { 1.0, 1.25 })
+  for (const double edge : { 1.0, 1.25, 1.5 })
   {
     const auto box = std::make_shared<Model>(*test::makeBox());
     box->uvs.assign(box->rest->positions.size(), { edge, 0.5 });
     box->textures.resize(1);
     box->textures[0].wrap[1] = TextureWrap::Mirror;
-    box->materials.at(0).texture = 0;
+    (edge < 1.5 ? box->materials.at(0).texture : box->materials.at(0).bumpMap) = 0;
     EXPECT_EQ(exportPov(*test::SceneBuilder().add(box).state(), this->V, this->path("n.pov")).warnings,
       edge > 1 ? std::vector<std::string>{ "textures repeat where the model has a border that goes on, or a mirror" }
                : std::vector<std::string>{});

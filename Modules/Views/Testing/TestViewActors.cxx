@@ -405,35 +405,43 @@ TEST_F(ViewActorsTable, WhatIsNearMayBeSeenAnywhere)
 
 TEST_F(ViewActorsTable, TexturesAreOfTheirStyle)
 {
-  auto model = std::make_shared<Model>(*this->Sphere);
-  auto image = std::make_shared<Image>();
-  image->width = image->height = 2;
-  image->rgba.assign(16, 255);
-  model->textures.push_back({ "t", "", image });
-  model->uvs.assign(model->rest->positions.size(), Eigen::Vector2d(0, 0));
-  model->materials[0].texture = 0;
-  this->Sphere = model;
-  this->place(1);
-  ViewActors actors(this->Renderer, ViewKind::Perspective);
-  for (const ViewStyle style : { ViewStyle::Textured, ViewStyle::Shaded, ViewStyle::Wireframe })
+  for (const auto& [wrap, expected] :
+    { std::pair(TextureWrap::Repeat, vtkTexture::Repeat), std::pair(TextureWrap::Clamp, vtkTexture::ClampToEdge),
+      std::pair(TextureWrap::Mirror, vtkTexture::MirroredRepeat) })
   {
-    actors.setStyle(style);
-    this->show(actors);
-    for (vtkActor* const actor : actorsOf(this->Renderer))
+    this->Renderer->RemoveAllViewProps();
+    auto model = std::make_shared<Model>(*this->Sphere);
+    auto image = std::make_shared<Image>();
+    image->width = image->height = 2;
+    image->rgba.assign(16, 255);
+    model->textures = { { "t", "", image } };
+    model->textures[0].wrap.fill(wrap);
+    model->uvs.assign(model->rest->positions.size(), Eigen::Vector2d(0, 0));
+    model->materials[0].texture = 0;
+    this->Sphere = model;
+    this->place(1);
+    ViewActors actors(this->Renderer, ViewKind::Perspective);
+    for (const ViewStyle style : { ViewStyle::Textured, ViewStyle::Shaded, ViewStyle::Wireframe })
     {
-      if (trianglesOf(actor) != vtkIdType(model->triangles.size()))
+      actors.setStyle(style);
+      this->show(actors);
+      for (vtkActor* const actor : actorsOf(this->Renderer))
       {
-        continue;
-      }
-      EXPECT_EQ(actor->GetTexture() != nullptr, style == ViewStyle::Textured);
-      EXPECT_EQ(actor->GetProperty()->GetRepresentation(), style == ViewStyle::Wireframe ? VTK_WIREFRAME : VTK_SURFACE);
-      EXPECT_TRUE(actor->GetForceOpaque());
-      if (actor->GetTexture() != nullptr)
-      {
-        EXPECT_TRUE(actor->GetTexture()->GetInterpolate() && actor->GetTexture()->GetMipmap());
-        EXPECT_TRUE(actor->GetTexture()->GetRepeat());
-        EXPECT_EQ(actor->GetTexture()->GetMaximumAnisotropicFiltering(), 1);
-        EXPECT_EQ(actor->GetTexture()->GetInput(), this->Meshes.picture(image, false));
+        if (trianglesOf(actor) != vtkIdType(model->triangles.size()))
+        {
+          continue;
+        }
+        EXPECT_EQ(actor->GetTexture() != nullptr, style == ViewStyle::Textured);
+        EXPECT_EQ(
+          actor->GetProperty()->GetRepresentation(), style == ViewStyle::Wireframe ? VTK_WIREFRAME : VTK_SURFACE);
+        EXPECT_TRUE(actor->GetForceOpaque());
+        if (actor->GetTexture() != nullptr)
+        {
+          EXPECT_TRUE(actor->GetTexture()->GetInterpolate() && actor->GetTexture()->GetMipmap());
+          EXPECT_EQ(actor->GetTexture()->GetWrap(), expected);
+          EXPECT_EQ(actor->GetTexture()->GetMaximumAnisotropicFiltering(), 1);
+          EXPECT_EQ(actor->GetTexture()->GetInput(), this->Meshes.picture(image, false));
+        }
       }
     }
   }
