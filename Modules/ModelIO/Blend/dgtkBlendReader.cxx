@@ -125,6 +125,14 @@ ModelContents readBlend(const std::string& path, const ReadOptions& options)
     const std::size_t colon = text.find(": ");
     throw InputError(path, 0, "what Blender makes of it " + text.substr(colon == std::string::npos ? 0 : colon + 2));
   }
+  // Blender exports colours of vertices whether its materials use them or not
+  std::vector<std::array<std::uint8_t, 4>>& colors = contents.model->colors;
+  if (std::any_of(colors.begin(), colors.end(),
+        [](const auto& c) { return c[0] < 255 || c[1] < 255 || c[2] < 255 || c[3] < 255; }))
+  {
+    contents.notes.push_back({ "colours of vertices are not drawn" });
+  }
+  colors.clear();
   contents.model->format = "blend";
   contents.model->path = path;
   nameFiles(path, own.path("files"), contents);

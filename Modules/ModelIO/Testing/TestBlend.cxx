@@ -53,14 +53,17 @@ private:
   TemporaryFolder Folder;
 };
 
-/// One triangle.
+/// One triangle with colours of its vertices.
 std::string glb(const std::string& name = "Thing")
 {
   GltfMaker maker;
   const int positions = maker.floats("VEC3", { 1, 0, 0, 0, 1, 0, 0, 0, 1 });
   maker.json["scenes"] = { { { "nodes", { 0 } } } };
   maker.json["nodes"] = { { { "mesh", 0 }, { "name", name } } };
-  maker.json["meshes"] = { { { "primitives", { { { "attributes", { { "POSITION", positions } } } } } } } };
+  const int colors = maker.floats("VEC3", { 1, 0, 0, 0, 1, 0, 0, 0, 1 });
+  maker.json["meshes"] = {
+    { { "primitives", { { { "attributes", { { "POSITION", positions }, { "COLOR_0", colors } } } } } } }
+  };
   return maker.glb();
 }
 } // namespace
@@ -95,6 +98,8 @@ TEST(Blend, IsWhatBlenderMakesOfIt)
   EXPECT_EQ(model->path, folder.path("scene/a.blend"));
   EXPECT_EQ(model->triangles.size(), 1u);
   EXPECT_EQ(model->parts.at(0).name, "Thing");
+  EXPECT_TRUE(model->colors.empty());
+  EXPECT_THAT(model->warnings, ElementsAre("colours of vertices are not drawn"));
   EXPECT_THAT(model->companions, ElementsAre(folder.path("scene/tiles.png"), folder.path("stone.png")));
 }
 
