@@ -71,13 +71,10 @@ void movePaths(ObjectDescription& object, const SceneDescription& from, const Sc
   object.model = moved(object.model, from, to);
   for (MaterialOverride& material : object.materials)
   {
-    for (std::optional<std::string>* path : { &material.texture, &material.normalMap, &material.bump,
-           &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
+    for (const auto picture : materialPictures)
     {
-      if (*path)
-      {
-        **path = moved(**path, from, to);
-      }
+      std::optional<std::string>& path = material.*picture;
+      path = path ? std::make_optional(moved(*path, from, to)) : path;
     }
   }
 }

@@ -43,7 +43,7 @@ inline const std::uint8_t* nearestTexel(
   {
     return nullptr;
   }
-  const std::array<TextureWrap, 2>& wrap = model.textures[std::size_t(texture)].wrap;
+  const TextureWraps& wrap = model.textures[std::size_t(texture)].wrap;
   const Image& image = *model.textures[std::size_t(texture)].image;
   const auto& corners = model.triangles[triangle];
   const Eigen::Vector2d& first = model.uvs[corners[0]];

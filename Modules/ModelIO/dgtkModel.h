@@ -48,6 +48,7 @@ enum class TextureWrap : std::uint8_t
   Clamp, ///< its border goes on
   Mirror ///< it repeats, every second time the other way round
 };
+using TextureWraps = std::array<TextureWrap, 2>; ///< along u and v
 
 /// A texture as the model names it. `image` is null when it was not found or cannot be decoded; a warning of the
 /// model says what was tried. Texture coordinates: (0, 0) is the lower left corner of the picture, (1, 1) the upper
@@ -58,9 +59,9 @@ struct Texture
   std::string path; ///< file that was found, or empty
   std::shared_ptr<const Image> image;
   TextureFilter filter = TextureFilter::Smooth;
-  std::array<TextureWrap, 2> wrap{}; ///< along u and v
+  TextureWraps wrap{};
 
-  bool repeats() const { return this->wrap == std::array<TextureWrap, 2>{}; } ///< along both
+  bool repeats() const { return this->wrap == TextureWraps{}; } ///< along both
 };
 
 /// Colours are display-referred (sRGB) in [0, 1], multiplied with the texture's.
@@ -96,6 +97,10 @@ struct Material
   double bumpScale = 1;          ///< scene units between black and white
   double occlusionStrength = 1;  ///< [0, 1]
 };
+
+/// The textures of a material, that of its colour first.
+constexpr std::array<int Material::*, 6> materialTextures{ &Material::texture, &Material::normalMap, &Material::bumpMap,
+  &Material::metallicRoughnessMap, &Material::emissionMap, &Material::occlusionMap };
 
 /// Triangles [firstTriangle, firstTriangle + triangles) of the model, all of one material.
 struct Part

@@ -55,6 +55,11 @@ struct MaterialOverride
   std::optional<std::string> occlusionMap;         ///< red times the light of the environment; picture file or ""
 };
 
+/// The picture files of a material, in the order of materialTextures (dgtkModel.h).
+constexpr std::array<std::optional<std::string> MaterialOverride::*, 6> materialPictures{ &MaterialOverride::texture,
+  &MaterialOverride::normalMap, &MaterialOverride::bump, &MaterialOverride::metallicRoughnessMap,
+  &MaterialOverride::emissionMap, &MaterialOverride::occlusionMap };
+
 /// Which motion of its model an object shows. With these defaults a model that has a motion plays its first one from
 /// frame 0 on, over and over; a model without motion is not affected.
 /// Model frame at scene frame f: first(sequence) + offset + max(0, f - start) / scene fps * sequence fps * rate.

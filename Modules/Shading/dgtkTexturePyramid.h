@@ -43,7 +43,7 @@ struct PictureUse
 {
   bool cutOut = false; ///< the colours of what is cut out are those beside it
   TextureFilter filter = TextureFilter::Smooth;
-  std::array<TextureWrap, 2> wrap{};
+  TextureWraps wrap{};
 
   bool operator<(const PictureUse& o) const
   {

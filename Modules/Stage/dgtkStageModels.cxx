@@ -237,10 +237,9 @@ void addPictures(const ObjectDescription& object, std::vector<std::string>& list
 {
   for (const MaterialOverride& material : object.materials)
   {
-    for (const std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
-           &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
+    for (const auto picture : materialPictures)
     {
-      const std::string name = picture->value_or("");
+      const std::string name = (material.*picture).value_or("");
       if (!name.empty() && std::find(listed.begin(), listed.end(), name) == listed.end())
       {
         listed.push_back(name);
@@ -393,12 +392,11 @@ void StageModels::applyOverride(const ObjectDescription& object, const Model& mo
     {
       setTexture(material, model, this->textureOf(model, *change.texture));
     }
-    const std::pair<const std::optional<std::string>*, int*> maps[] = { { &change.normalMap, &material.normalMap },
-      { &change.bump, &material.bumpMap }, { &change.metallicRoughnessMap, &material.metallicRoughnessMap },
-      { &change.emissionMap, &material.emissionMap }, { &change.occlusionMap, &material.occlusionMap } };
-    for (const auto& [picture, texture] : maps)
+    for (std::size_t i = 1; i < materialPictures.size(); ++i)
     {
-      *texture = *picture ? this->textureOf(model, **picture) : *texture;
+      const std::optional<std::string>& picture = change.*materialPictures[i];
+      int& texture = material.*materialTextures[i];
+      texture = picture ? this->textureOf(model, *picture) : texture;
     }
   }
   if (!used && change.material != "*")

@@ -178,10 +178,9 @@ void append(const Model& from, const Affine3& place, Model& to, Geometry& geomet
 /// The material of another model for one whose textures come after those that are there.
 Material moved(Material material, int textures)
 {
-  for (int* const map : { &material.texture, &material.normalMap, &material.metallicRoughnessMap, &material.emissionMap,
-         &material.occlusionMap })
+  for (const auto texture : materialTextures)
   {
-    *map += *map >= 0 ? textures : 0;
+    material.*texture += material.*texture >= 0 ? textures : 0;
   }
   return material;
 }

@@ -245,10 +245,10 @@ bool isLostBeyondBorder(const Model& model)
     [&model](const Part& part)
     {
       const Material& m = model.materials[std::size_t(part.material)];
-      const int maps[] = { m.texture, m.normalMap, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap };
       const bool clamped = m.texture >= 0 && model.textures[std::size_t(m.texture)].wrap[0] == TextureWrap::Clamp;
-      return !std::all_of(std::begin(maps) + (clamped ? 1 : 0), std::end(maps),
-               [&model](int map) { return map < 0 || model.textures[std::size_t(map)].repeats(); }) &&
+      return !std::all_of(materialTextures.begin() + (clamped ? 1 : 0), materialTextures.end(),
+               [&model, &m](auto texture)
+               { return m.*texture < 0 || model.textures[std::size_t(m.*texture)].repeats(); }) &&
              model.reachesBeyondPictures(part);
     });
 }

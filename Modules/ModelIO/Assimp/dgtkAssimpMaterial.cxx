@@ -246,12 +246,12 @@ void convertMaterials(const aiScene& from, bool gltf, Scene& to)
     // pictures that the file holds are also named by their file name
     for (Material& material : to.materials)
     {
-      for (Map* map : { &material.texture, &material.normalMap, &material.metallicRoughnessMap, &material.emissionMap,
-             &material.occlusionMap })
+      for (const auto map : mapsOfMaterials)
       {
-        if (!map->name.empty() && map->name == to.textures.back().name)
+        std::string& name = (material.*map).name;
+        if (!name.empty() && name == to.textures.back().name)
         {
-          map->name = "*" + std::to_string(i);
+          name = "*" + std::to_string(i);
         }
       }
     }

@@ -62,12 +62,10 @@ struct Material
   Map metallicRoughnessMap;
   Map emissionMap;
   Map occlusionMap;
-
-  std::array<const Map*, 5> maps() const
-  {
-    return { &this->texture, &this->normalMap, &this->metallicRoughnessMap, &this->emissionMap, &this->occlusionMap };
-  }
 };
+
+constexpr std::array<Map Material::*, 5> mapsOfMaterials{ &Material::texture, &Material::normalMap,
+  &Material::metallicRoughnessMap, &Material::emissionMap, &Material::occlusionMap };
 
 /// `height` is 0 for an encoded picture (PNG, JPEG), whose bytes are `data`; else RGBA rows, top to bottom.
 struct Texture

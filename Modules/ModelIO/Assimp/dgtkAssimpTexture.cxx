@@ -21,7 +21,7 @@ std::string unescaped(const std::string& name)
   return plain == name ? std::string() : plain;
 }
 
-std::array<TextureWrap, 2> wrapOf(const import::Map& map)
+TextureWraps wrapOf(const import::Map& map)
 {
   const auto along = [](import::Wrap wrap)
   {
@@ -111,9 +111,9 @@ void AssimpMaterials::nameTextures(const std::vector<std::int32_t>& indices)
   {
     if (const import::Material* material = this->find(index))
     {
-      for (const import::Map* map : material->maps())
+      for (const auto map : import::mapsOfMaterials)
       {
-        this->textureOf(*map);
+        this->textureOf(material->*map);
       }
     }
   }

@@ -34,7 +34,7 @@ private:
   import::Scene& Scene;
   ModelBuilder& Builder;
   std::map<std::int32_t, int> Known;
-  std::map<std::pair<std::string, std::array<TextureWrap, 2>>, int> Named;
+  std::map<std::pair<std::string, TextureWraps>, int> Named;
   std::map<std::size_t, int> Embedded; ///< the first picture of each
 };
 

@@ -36,12 +36,12 @@ public:
   void run(const Json& node, const std::vector<std::uint32_t>& meshes)
   {
     const Json& primitives = this->File.item("meshes", node.at("mesh")).at("primitives");
+    if (meshes.size() != primitives.size())
+    {
+      GltfFile::fail("meshes are not as expected");
+    }
     for (std::size_t i = 0; i < primitives.size(); ++i)
     {
-      if (meshes.size() != primitives.size())
-      {
-        GltfFile::fail("meshes are not as expected");
-      }
       if (!this->IsDone.at(meshes[i]))
       {
         this->IsDone[meshes[i]] = true;

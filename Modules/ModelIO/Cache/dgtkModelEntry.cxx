@@ -289,9 +289,9 @@ bool hasMaterials(const ModelContents& contents)
   bool good = contents.alpha.size() == contents.model->materials.size();
   for (const Material& m : contents.model->materials)
   {
-    for (const int index : { m.texture, m.normalMap, m.bumpMap, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap })
+    for (const auto texture : materialTextures)
     {
-      good = good && known(index);
+      good = good && known(m.*texture);
     }
   }
   for (int i = 0; i < pictures; ++i)

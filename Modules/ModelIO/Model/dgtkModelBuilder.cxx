@@ -120,8 +120,8 @@ void ModelBuilder::setMaterial(int index, const Material& material)
   m.texture = m.texture < static_cast<int>(this->Contents.pictures.size()) ? m.texture : -1;
 }
 
-int ModelBuilder::addTexture(const std::string& name, const std::string& alternative, const std::string& unescaped,
-  const std::array<TextureWrap, 2>& wrap)
+int ModelBuilder::addTexture(
+  const std::string& name, const std::string& alternative, const std::string& unescaped, const TextureWraps& wrap)
 {
   if (name.empty())
   {

@@ -89,7 +89,7 @@ public:
   /// Index of the picture of that name, or -1 for "". When it is not found, `alternative` is looked for; `unescaped` is
   /// what it is called then.
   int addTexture(const std::string& name, const std::string& alternative = {}, const std::string& unescaped = {},
-    const std::array<TextureWrap, 2>& wrap = {});
+    const TextureWraps& wrap = {});
   /// The same for a picture that the model's file holds.
   int addEmbedded(ModelPicture picture);
   /// Index of a material that is `material` with that texture: shared by all calls with the same arguments.
@@ -139,7 +139,7 @@ private:
   ModelContents Contents;
   std::shared_ptr<Geometry> Rest;
   bool WantsPictures;
-  std::map<std::string, std::map<std::array<TextureWrap, 2>, int>> Pictures; ///< by name
+  std::map<std::string, std::map<TextureWraps, int>> Pictures; ///< by name
   std::unique_ptr<ModelObject> Current;
   std::uint64_t MemoryLimit;
   std::uint64_t WorkLimit; ///< of ear clipping and smoothing together

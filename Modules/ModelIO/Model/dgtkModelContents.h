@@ -26,7 +26,7 @@ struct ModelPicture
   std::vector<std::uint8_t> bytes;
   static constexpr std::int32_t own = -1;
   std::int32_t same = own; ///< an earlier one in the file whose bytes are meant instead
-  std::array<TextureWrap, 2> wrap{};
+  TextureWraps wrap{};
 
   bool isInFile() const { return !this->type.empty() || this->width > 0; }
 };

@@ -36,7 +36,7 @@ private:
     std::string name;
     std::array<double, 2> scale{ 1, 1 };
     std::array<double, 2> offset{ 0, 0 };
-    std::array<TextureWrap, 2> wrap{};
+    TextureWraps wrap{};
   };
   /// A material of a library.
   struct Entry

@@ -54,9 +54,9 @@ struct PlyHeader
   };
   Encoding encoding = Encoding::Ascii;
   std::vector<PlyElement> elements;
-  std::string texture;               ///< of a line `comment TextureFile NAME`
-  std::array<TextureWrap, 2> wrap{}; ///< of a line `comment TextureWrap clamp mirror` behind it
-  std::size_t bodyAt = 0;            ///< offset of the first byte after the header
+  std::string texture;    ///< of a line `comment TextureFile NAME`
+  TextureWraps wrap{};    ///< of a line `comment TextureWrap clamp mirror` behind it
+  std::size_t bodyAt = 0; ///< offset of the first byte after the header
 };
 
 /// Reads and checks the header: known types, no name twice, and counts that fit into the bytes that follow. Throws

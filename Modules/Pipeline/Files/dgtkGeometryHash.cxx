@@ -117,10 +117,10 @@ private:
     bytes.number(physical.metallic);
     bytes.number(physical.roughness);
     bytes.number(physical.wanted);
-    for (const int texture : { material.texture, material.normalMap, material.bumpMap, material.metallicRoughnessMap,
-           material.emissionMap, material.occlusionMap })
+    for (const auto texture : materialTextures)
     {
-      bytes.text(texture < 0 ? "" : this->texture(model.textures[std::size_t(texture)]));
+      const int index = material.*texture;
+      bytes.text(index < 0 ? "" : this->texture(model.textures[std::size_t(index)]));
     }
   }
 

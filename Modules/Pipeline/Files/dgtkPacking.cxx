@@ -40,13 +40,6 @@ fs::path commonFolder(const std::vector<std::string>& files)
   return common;
 }
 
-/// The pictures that replace those of a material.
-std::vector<std::optional<std::string>*> picturesOf(MaterialOverride& material)
-{
-  return { &material.texture, &material.normalMap, &material.bump, &material.metallicRoughnessMap,
-    &material.emissionMap, &material.occlusionMap };
-}
-
 class Planner
 {
 public:
@@ -139,9 +132,9 @@ private:
       }
       for (MaterialOverride& material : object.materials)
       {
-        for (const std::optional<std::string>* picture : picturesOf(material))
+        for (const auto picture : materialPictures)
         {
-          added.insert(picture->value_or(""));
+          added.insert((material.*picture).value_or(""));
         }
       }
     }
@@ -179,12 +172,12 @@ private:
   {
     for (MaterialOverride& material : object.materials)
     {
-      for (std::optional<std::string>* picture : picturesOf(material))
+      for (const auto picture : materialPictures)
       {
-        const auto found = this->Pictures.find(picture->value_or(""));
+        const auto found = this->Pictures.find((material.*picture).value_or(""));
         if (found != this->Pictures.end())
         {
-          *picture = this->Plan.copies.at(found->second);
+          material.*picture = this->Plan.copies.at(found->second);
         }
       }
     }

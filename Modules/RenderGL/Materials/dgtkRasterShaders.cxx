@@ -77,10 +77,9 @@ vec3 dgtkTexel(sampler2D picture, vec2 uv)
 }
 )";
 
-using Wraps = std::array<TextureWrap, 2>;
-
 /// `repeat`, `clamp` or `mirror` of each axis, `$` in them being "x" and "y".
-std::string perAxis(const Wraps& wraps, const std::string& repeat, const std::string& clamp, const std::string& mirror)
+std::string perAxis(
+  const TextureWraps& wraps, const std::string& repeat, const std::string& clamp, const std::string& mirror)
 {
   std::string code;
   for (std::size_t i = 0; i < wraps.size(); ++i)
@@ -95,7 +94,7 @@ std::string perAxis(const Wraps& wraps, const std::string& repeat, const std::st
 std::string goneCode(const ShaderVariant& variant)
 {
   std::string code = variant.cutOut ? goneTexel : "";
-  if (const Wraps& wraps = variant.wraps[ShaderVariant::Base]; wraps != Wraps{})
+  if (const TextureWraps& wraps = variant.wraps[ShaderVariant::Base]; wraps != TextureWraps{})
   {
     put(code, "  texel -= vec2(size) * floor(texel / vec2(size));\n",
       "  vec2 tiled = vec2(size);\n" + perAxis(wraps, "  texel.$ -= tiled.$ * floor(texel.$ / tiled.$);\n", "",
@@ -106,15 +105,18 @@ std::string goneCode(const ShaderVariant& variant)
 }
 
 /// What is behind the name of dgtkTexel() for pictures that are wrapped so.
-std::string suffixOf(const Wraps& wraps) { return wraps == Wraps{} ? "" : perAxis(wraps, "Repeat", "Clamp", "Mirror"); }
+std::string suffixOf(const TextureWraps& wraps)
+{
+  return wraps == TextureWraps{} ? "" : perAxis(wraps, "Repeat", "Clamp", "Mirror");
+}
 
 std::string filterCode(const ShaderVariant& variant)
 {
   std::string code = variant.samples() ? filteredTexel : "";
-  for (const Wraps& wraps :
-    variant.samples() ? std::set<Wraps>(variant.wraps.begin(), variant.wraps.end()) : std::set<Wraps>())
+  for (const TextureWraps& wraps :
+    variant.samples() ? std::set<TextureWraps>(variant.wraps.begin(), variant.wraps.end()) : std::set<TextureWraps>())
   {
-    if (wraps != Wraps{})
+    if (wraps != TextureWraps{})
     {
       std::string other = filteredTexel;
       put(other, "vec2 at = fract(uv) * size - 0.5;",
@@ -137,7 +139,7 @@ void putWraps(const ShaderVariant& variant, std::string& fragment)
     "dgtkMetalRoughMap", "dgtkEmissionMap", "dgtkOcclusionMap" };
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    if (variant.wraps[i] != Wraps{})
+    if (variant.wraps[i] != TextureWraps{})
     {
       const std::string read = std::string("(") + names[i] + ',';
       put(fragment, ("dgtkTexel" + read).c_str(), "dgtkTexel" + suffixOf(variant.wraps[i]) + read);

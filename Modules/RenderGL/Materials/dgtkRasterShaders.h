@@ -35,7 +35,7 @@ struct ShaderVariant
   bool textured = false;
   bool colored = false; ///< vertices have colours
   bool cutOut = false;
-  std::array<std::array<TextureWrap, 2>, pictures> wraps{};
+  std::array<TextureWraps, pictures> wraps{};
   bool pieces = false;  ///< the triangle comes from a vertex attribute
   bool peel = false;    ///< fragments up to those of the layer before are not there
   bool collect = false; ///< fragments are appended to a FragmentList

@@ -322,8 +322,8 @@ TEST_P(PictureColor, PicturesGoOnAsTheirTexturesSay)
     return all;
   };
   /// Of a picture of 4 x 2 texels, interpolated.
-  const auto seen = [&](const std::vector<std::array<int, 4>>& texels, const std::array<TextureWrap, 2>& wrap,
-                      const Eigen::Vector2d& uv)
+  const auto seen =
+    [&](const std::vector<std::array<int, 4>>& texels, const TextureWraps& wrap, const Eigen::Vector2d& uv)
   {
     const double x = uv.x() * 4 - 0.5;
     const double y = uv.y() * 2 - 0.5;
@@ -342,16 +342,15 @@ TEST_P(PictureColor, PicturesGoOnAsTheirTexturesSay)
     }
     return sum;
   };
-  using Wraps = std::array<TextureWrap, 2>;
   constexpr TextureWrap repeat = TextureWrap::Repeat;
   constexpr TextureWrap clamp = TextureWrap::Clamp;
   constexpr TextureWrap mirror = TextureWrap::Mirror;
   const View view = frontView(256, 192);
-  for (const auto& [base, glow] : { std::pair{ Wraps{ clamp, clamp }, Wraps{ mirror, repeat } },
-         std::pair{ Wraps{ mirror, mirror }, Wraps{ clamp, clamp } },
-         std::pair{ Wraps{ repeat, clamp }, Wraps{ repeat, repeat } },
-         std::pair{ Wraps{ clamp, mirror }, Wraps{ mirror, clamp } },
-         std::pair{ Wraps{ repeat, repeat }, Wraps{ repeat, mirror } } })
+  for (const auto& [base, glow] : { std::pair{ TextureWraps{ clamp, clamp }, TextureWraps{ mirror, repeat } },
+         std::pair{ TextureWraps{ mirror, mirror }, TextureWraps{ clamp, clamp } },
+         std::pair{ TextureWraps{ repeat, clamp }, TextureWraps{ repeat, repeat } },
+         std::pair{ TextureWraps{ clamp, mirror }, TextureWraps{ mirror, clamp } },
+         std::pair{ TextureWraps{ repeat, repeat }, TextureWraps{ repeat, mirror } } })
   {
     for (const bool holes : { false, true })
     {

@@ -47,7 +47,7 @@ Material& ModelBuilder::part(const Material& material)
   return this->Made->materials.back();
 }
 
-int ModelBuilder::texture(std::shared_ptr<const Image> image, const std::array<TextureWrap, 2>& wrap)
+int ModelBuilder::texture(std::shared_ptr<const Image> image, const TextureWraps& wrap)
 {
   Texture texture;
   texture.image = std::move(image);

@@ -18,7 +18,7 @@ public:
   ModelBuilder();
   /// Starts a part; triangles that follow belong to it. Returns its material for changes.
   Material& part(const Material& material = {});
-  int texture(std::shared_ptr<const Image> image, const std::array<TextureWrap, 2>& wrap = {});
+  int texture(std::shared_ptr<const Image> image, const TextureWraps& wrap = {});
   /// Corners counter-clockwise from outside; texture coordinates (0, 0), (1, 0), (1, 1), (0, 1) times `repeat`.
   void quad(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d,
     double repeat = 1);

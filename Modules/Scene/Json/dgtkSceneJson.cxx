@@ -345,13 +345,10 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
     object.model = place.of(object.model);
     for (MaterialOverride& material : object.materials)
     {
-      for (std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
-             &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
+      for (const auto picture : materialPictures)
       {
-        if (*picture)
-        {
-          *picture = place.of(**picture);
-        }
+        std::optional<std::string>& path = material.*picture;
+        path = path ? std::make_optional(place.of(*path)) : path;
       }
     }
   }
