@@ -40,8 +40,6 @@ public:
   SceneSeries& operator=(const SceneSeries&) = delete;
 
   std::shared_ptr<const Stage> load(SceneDescription scene, const Stage::WarningSink& warning = {});
-  /// Number of models that are kept, those with other pictures counted apart.
-  std::size_t kept() const;
 
 private:
   struct Impl;

@@ -180,6 +180,4 @@ std::shared_ptr<const Stage> SceneSeries::load(SceneDescription scene, const Sta
   return loaded.stage;
 }
 
-std::size_t SceneSeries::kept() const { return this->Self->Models.size(); }
-
 } // namespace dgtk

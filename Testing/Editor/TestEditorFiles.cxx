@@ -20,8 +20,8 @@ using dgtk::test::sourceFile;
 
 namespace
 {
-constexpr int longestEvent = 200; // milliseconds of the window's thread
-constexpr int side = 450;         // vertices of the large model's side
+constexpr int longestEventMs = 200; // milliseconds of the window's thread
+constexpr int side = 450;           // vertices of the large model's side
 
 /// Milliseconds that this thread has computed.
 double computed()
@@ -257,7 +257,7 @@ void TestEditorFiles::readingDoesNotHoldTheWindow()
   QVERIFY2(beats > 20, qPrintable(QString::number(beats)));
   qInfo("%d beats while %d triangles were read; the longest event took %.0f ms", beats, 2 * (side - 1) * (side - 1),
     longest);
-  QVERIFY(longest < patience() * longestEvent);
+  QVERIFY(longest < patience() * longestEventMs);
   QVERIFY(this->action("open")->isEnabled());
 }
 

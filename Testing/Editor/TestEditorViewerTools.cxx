@@ -19,7 +19,7 @@
 
 namespace
 {
-constexpr int usualEvents = 600;
+constexpr int usualViewerEvents = 600;
 
 /// An action by chance that opens no other window.
 void triggerOne(QMainWindow* viewer, std::mt19937& random)
@@ -58,7 +58,7 @@ void TestEditorViewer::randomEventsDoNoHarm()
   QVERIFY(viewer != nullptr);
   const int asked = qEnvironmentVariableIntValue("DGTK_MONKEY_EVENTS");
   std::mt19937 random(1);
-  for (int i = 0; i < (asked > 0 ? asked : usualEvents); ++i)
+  for (int i = 0; i < (asked > 0 ? asked : usualViewerEvents); ++i)
   {
     const QList<QWidget*> all = viewer->findChildren<QWidget*>();
     QWidget* const widget = all[int(random() % unsigned(all.size()))];

@@ -277,7 +277,7 @@ TEST(ScenePlaces, BoxesOfItemsAndFieldsOfView)
   EXPECT_NEAR(fieldOfViewOf(camera), 90, placeTolerance);
 }
 
-TEST(ScenePlaces, SurroundingsAreThoseOfTheStage)
+TEST(ScenePlaces, SurroundingsAreAsTheSceneSays)
 {
   SceneDescription scene;
   scene.background = V(0.25, 0.5, 0.75);

@@ -54,7 +54,7 @@ TEST(ScenePlaces, AreThoseOfTheStage)
   }
 }
 
-TEST(ScenePlaces, SurroundingsAreThoseOfTheStage)
+TEST(ScenePlaces, SurroundingsAreTheEnvironmentOfTheStage)
 {
   for (const UpAxis up : { UpAxis::Y, UpAxis::Z })
   {

@@ -2,7 +2,7 @@
 #ifndef dgtkPathRule_h
 #define dgtkPathRule_h
 
-#include "dgtkJson.h"
+#include "dgtkRuleValues.h"
 #include "dgtkSampleWorld.h"
 #include "dgtkSceneDescription.h"
 
@@ -14,15 +14,9 @@
 namespace dgtk::samplerule
 {
 
-inline constexpr Range coordinate{ -1e15, 1e15, false, false, "a number from -1e15 to 1e15" };
-inline constexpr Range positive{ 0, 1e15, true, false, "a number above 0, at most 1e15" };
-inline constexpr Range notNegative{ 0, 1e15, false, false, "a number from 0 to 1e15" };
-inline constexpr Range degrees{ -36000, 36000, false, false, "degrees from -36000 to 36000" };
 inline constexpr Range frameNumber{ 0, largestFrame, false, false, "a whole number from 0 to 999999" };
 inline constexpr Range tries{ 1, 10000, false, false, "a whole number from 1 to 10000" };
 
-/// Fails at a key that is none of these.
-void onlyKeys(const JsonCursor& at, const std::vector<std::string>& known);
 /// A point, or the centre of the objects that a name or pattern stands for.
 Eigen::Vector3d pointOf(const JsonCursor& at, const SampleWorld& world);
 /// A number, or [first, last].

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkNormal.h"
 #include "dgtkPortableMath.h"
+#include "dgtkRuleValues.h"
 #include "dgtkTrack.h"
 
 #include <algorithm>
@@ -14,13 +15,11 @@
 namespace dgtk
 {
 
+using namespace samplerule;
+
 namespace
 {
-constexpr Range coordinate{ -1e15, 1e15, false, false, "a number from -1e15 to 1e15" };
-constexpr Range positive{ 0, 1e15, true, false, "a number above 0, at most 1e15" };
-constexpr Range notNegative{ 0, 1e15, false, false, "a number from 0 to 1e15" };
 constexpr Range latitude{ -90, 90, false, false, "degrees from -90 to 90" };
-constexpr Range angle{ -36000, 36000, false, false, "degrees from -36000 to 36000" };
 constexpr Range whole{ -0x1p53, 0x1p53, false, false, "a whole number, at most 2^53 in size" };
 constexpr char geometryKey[] = "$geometry";
 
@@ -46,22 +45,6 @@ JsonNode numberOf(double value, int line)
   JsonNode node = JsonNode::of(value);
   node.line = line;
   return node;
-}
-
-void onlyKeys(const JsonCursor& at, const std::vector<std::string>& known)
-{
-  for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
-  {
-    if (std::find(known.begin(), known.end(), at.key(i)) == known.end())
-    {
-      std::string all;
-      for (const std::string& key : known)
-      {
-        all += (all.empty() ? "" : ", ") + key;
-      }
-      at.fail("has the unknown key " + quoted(at.key(i)), "one of " + all);
-    }
-  }
 }
 
 struct Interval
@@ -154,7 +137,7 @@ JsonNode drawnRotation(const JsonCursor& at, const ValueUniforms& u, int line)
   {
     at["axis"].fail("has no direction", "three numbers that are not all 0");
   }
-  const Interval turns = at.has("angle") ? intervalOf(at["angle"], angle, true) : Interval{ 0, 360 };
+  const Interval turns = at.has("angle") ? intervalOf(at["angle"], degrees, true) : Interval{ 0, 360 };
   const portable::SineCosine half = portable::sinCos(turns.at(u(0)) * (pi / 360));
   const Eigen::Vector3d v = axis * (half.sine / length);
   return listOf(std::vector<double>{ half.cosine, v.x(), v.y(), v.z() }, line);
@@ -189,7 +172,7 @@ JsonNode drawnShell(const JsonCursor& at, const ValueUniforms& u, UpAxis up, int
   onlyKeys(at, { "center", "radius", "elevation", "azimuth" });
   const double radius = intervalOf(at["radius"], notNegative, true).at(u(2));
   const Interval elevation = at.has("elevation") ? intervalOf(at["elevation"], latitude, true) : Interval{ -90, 90 };
-  const Interval azimuth = at.has("azimuth") ? intervalOf(at["azimuth"], angle, true) : Interval{ 0, 360 };
+  const Interval azimuth = at.has("azimuth") ? intervalOf(at["azimuth"], degrees, true) : Interval{ 0, 360 };
   const auto sine = [](double degrees) { return portable::sinCos(degrees * (pi / 180)).sine; };
   const double height = Interval{ sine(elevation.least), sine(elevation.most) }.at(u(1));
   return around(at["center"], radius * directionOf(azimuth.at(u(0)), height, up), line);

@@ -2,6 +2,7 @@
 #include "dgtkSampleExpansion.h"
 
 #include "dgtkError.h"
+#include "dgtkRuleValues.h"
 #include "dgtkSampleTree.h"
 #include "dgtkSceneRandom.h"
 #include "dgtkText.h"
@@ -311,10 +312,9 @@ JsonNode SampleExpansion::choice(const JsonNode& node, const At& at)
     const JsonDocument list = this->documentOf(this->value(*weightNode, {}, weightsAt), weightsAt);
     const JsonCursor cursor(list);
     cursor.listSize(options.children.size());
-    constexpr Range weight{ 0, 1e15, false, false, "a number from 0 to 1e15" };
     for (const JsonCursor& one : cursor.items())
     {
-      weights.push_back(one.number(weight));
+      weights.push_back(one.number(samplerule::notNegative));
     }
     if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; }))
     {

@@ -238,7 +238,6 @@ Dataset::Moment& Dataset::moment(int frame)
 }
 
 std::shared_ptr<const SceneState> Dataset::state(int frame) { return this->moment(frame).state; }
-std::shared_ptr<const OcclusionQuery> Dataset::query(int frame) { return this->moment(frame).query; }
 
 std::shared_ptr<const Sight> Dataset::sight(const Eye& eye, int frame)
 {

@@ -96,7 +96,6 @@ public:
   /// The scene's own camera in the size of a record.
   View sceneView(const CameraRecord& record) const;
   std::shared_ptr<const SceneState> state(int frame);
-  std::shared_ptr<const OcclusionQuery> query(int frame);
   std::shared_ptr<const Sight> sight(const Eye& eye, int frame);
   /// The same with the times of its rolling shutter, as the scene's camera moves.
   std::shared_ptr<const TimedSight> timedSight(const Eye& eye, int frame);
