@@ -21,8 +21,10 @@ namespace dgtk
 
 namespace
 {
-constexpr int drawEvery = 10; // milliseconds
-constexpr double fastest = 1000;
+constexpr int drawEvery = 10;   // milliseconds
+constexpr int rateDecimals = 3; // 23.976
+constexpr double slowest = 0.001;
+constexpr double fastest = 1e6; // that scenes may have
 } // namespace
 
 QToolButton* TimeLine::addButton(QBoxLayout* layout, const char* name, int icon, const QString& tip)
@@ -46,7 +48,8 @@ void TimeLine::addFrameFields(QBoxLayout* layout)
   layout->addWidget(this->Frame);
   this->Rate = new QDoubleSpinBox(this);
   this->Rate->setObjectName("frameRate");
-  this->Rate->setRange(0.01, fastest);
+  this->Rate->setDecimals(rateDecimals);
+  this->Rate->setRange(slowest, fastest);
   this->Rate->setKeyboardTracking(false);
   this->Rate->setSuffix(tr(" frames/s"));
   this->Rate->setToolTip(tr("The scene's frame rate: of playing, and of the models' sequences"));

@@ -335,6 +335,14 @@ void TestEditorTimeLine::playsAtItsRate()
   this->action("undo")->trigger();
   rate->setValue(20);
   QCOMPARE(this->Window->document().scene().fps, 20.0);
+  for (const char* const typed : { "23.976", "0.001", "1000000", "20" })
+  {
+    rate->selectAll();
+    QTest::keyClicks(rate, typed);
+    QTest::keyClick(rate, Qt::Key_Return);
+    QCOMPARE(this->Window->document().scene().fps, QString(typed).toDouble());
+    QCOMPARE(rate->value(), QString(typed).toDouble());
+  }
   loop->setChecked(false);
   QElapsedTimer clock;
   clock.start();
@@ -354,7 +362,10 @@ void TestEditorTimeLine::playsAtItsRate()
   const int paused = frame->value();
   QTest::qWait(settle);
   QCOMPARE(frame->value(), paused);
-  this->action("undo")->trigger();
+  for (int i = 0; i < 5; ++i)
+  {
+    this->action("undo")->trigger();
+  }
   QCOMPARE(rate->value(), 25.0);
 }
 
