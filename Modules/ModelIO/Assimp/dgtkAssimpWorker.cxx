@@ -4,6 +4,7 @@
 // in an importer ends here, with that one model. It opens no file: it asks the library for each (dgtkImportProtocol.h).
 #include "dgtkAssimpConvert.h"
 #include "dgtkAssimpGltf.h"
+#include "dgtkColladaText.h"
 #include "dgtkHelperChannel.h"
 #include "dgtkHelperWall.h"
 #include "dgtkImportProtocol.h"
@@ -11,6 +12,7 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -112,6 +114,11 @@ std::uint64_t lineOfLongNumber(int file)
 class Files : public Assimp::DefaultIOSystem
 {
 public:
+  explicit Files(bool isCollada)
+    : IsCollada(isCollada)
+  {
+  }
+
   bool Exists(const char* name) const override { return static_cast<bool>(ask(name).file); }
   Assimp::IOStream* Open(const char* name, const char* mode) override
   {
@@ -138,7 +145,7 @@ public:
         limitTo(RLIMIT_AS, workerBase + workerPerByte * this->Bytes);
       }
     }
-    return file.release();
+    return this->IsCollada ? trimmedText(*file) : file.release();
   }
 
   /// All of a file, or its first bytes. Throws std::runtime_error.
@@ -149,9 +156,7 @@ public:
     {
       throw std::runtime_error("a buffer cannot be opened");
     }
-    std::string bytes(std::min(file->FileSize(), most), '\0');
-    bytes.resize(file->Read(bytes.data(), 1, bytes.size()));
-    return bytes;
+    return bytesOf(*file, most);
   }
 
   std::uint64_t Bytes = 0;
@@ -165,6 +170,23 @@ private:
     Descriptor file = Descriptor();
     std::string path;
   };
+
+  static std::string bytesOf(Assimp::IOStream& file, std::size_t most = ~std::size_t(0))
+  {
+    std::string bytes(std::min(file.FileSize(), most), '\0');
+    bytes.resize(file.Read(bytes.data(), 1, bytes.size()));
+    return bytes;
+  }
+
+  static Assimp::IOStream* trimmedText(Assimp::IOStream& file)
+  {
+    const std::string text = dgtk::import::trimmed(bytesOf(file));
+    auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+    std::copy(text.begin(), text.end(), bytes.get());
+    auto stream = std::make_unique<Assimp::MemoryIOStream>(bytes.get(), text.size(), true);
+    bytes.release(); // the stream's own
+    return stream.release();
+  }
 
   static Found ask(const std::string& name)
   {
@@ -184,6 +206,7 @@ private:
     return { std::move(files[0]), answer.path };
   }
 
+  bool IsCollada;
   std::set<std::string> Seen;
 };
 
@@ -218,7 +241,7 @@ std::string inWords(const std::string& error)
 void read(const std::string& path, const std::string& format, Scene& scene)
 {
   Assimp::Importer importer;
-  auto* files = new Files; // the importer owns it
+  auto* files = new Files(format == "collada"); // the importer owns it
   importer.SetIOHandler(files);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
