@@ -237,7 +237,7 @@ Animation converted(const aiAnimation& from, const Scene& scene, const NodeIndex
 }
 } // namespace
 
-void convert(const aiScene& from, bool gltf, double unit, Scene& to)
+void convert(const aiScene& from, bool gltf, Scene& to)
 {
   if (!from.mRootNode)
   {
@@ -245,13 +245,6 @@ void convert(const aiScene& from, bool gltf, double unit, Scene& to)
   }
   NodeIndex nodes;
   addNode(*from.mRootNode, noIndex, 0, to, nodes);
-  for (std::size_t row = 0; unit > 0 && row < 3; ++row)
-  {
-    for (std::size_t column = 0; column < 3; ++column)
-    {
-      to.nodes[0].parent_from_node[row * 4 + column] /= unit;
-    }
-  }
   convertMaterials(from, gltf, to);
   bool colored = false;
   for (unsigned i = 0; i < from.mNumMeshes; ++i)

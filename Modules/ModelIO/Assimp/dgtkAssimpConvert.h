@@ -9,9 +9,8 @@ struct aiScene;
 namespace dgtk::import
 {
 
-/// Everything of Assimp's scene that a Model can hold. `unit`: scale that the importer put into the root node, taken
-/// out again.
-void convert(const aiScene& from, bool gltf, double unit, Scene& to);
+/// Everything of Assimp's scene that a Model can hold.
+void convert(const aiScene& from, bool gltf, Scene& to);
 
 /// Materials and embedded pictures.
 void convertMaterials(const aiScene& from, bool gltf, Scene& to);

@@ -17,7 +17,6 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -145,18 +144,18 @@ public:
         limitTo(RLIMIT_AS, workerBase + workerPerByte * this->Bytes);
       }
     }
-    return this->IsCollada ? trimmedText(*file) : file.release();
+    return this->IsCollada ? colladaStream(*file) : file.release();
   }
 
-  /// All of a file, or its first bytes. Throws std::runtime_error.
-  std::string contentsOf(const std::string& name, std::size_t most = ~std::size_t(0))
+  /// All of a file. Throws std::runtime_error.
+  std::string contentsOf(const std::string& name)
   {
     const std::unique_ptr<Assimp::IOStream> file(this->Open(name.c_str(), "rb"));
     if (!file)
     {
       throw std::runtime_error("a buffer cannot be opened");
     }
-    return bytesOf(*file, most);
+    return bytesOf(*file);
   }
 
   std::uint64_t Bytes = 0;
@@ -171,16 +170,16 @@ private:
     std::string path;
   };
 
-  static std::string bytesOf(Assimp::IOStream& file, std::size_t most = ~std::size_t(0))
+  static std::string bytesOf(Assimp::IOStream& file)
   {
-    std::string bytes(std::min(file.FileSize(), most), '\0');
+    std::string bytes(file.FileSize(), '\0');
     bytes.resize(file.Read(bytes.data(), 1, bytes.size()));
     return bytes;
   }
 
-  static Assimp::IOStream* trimmedText(Assimp::IOStream& file)
+  static Assimp::IOStream* colladaStream(Assimp::IOStream& file)
   {
-    const std::string text = dgtk::import::trimmed(bytesOf(file));
+    const std::string text = dgtk::import::colladaText(bytesOf(file));
     auto bytes = std::make_unique<std::uint8_t[]>(text.size());
     std::copy(text.begin(), text.end(), bytes.get());
     auto stream = std::make_unique<Assimp::MemoryIOStream>(bytes.get(), text.size(), true);
@@ -209,20 +208,6 @@ private:
   bool IsCollada;
   std::set<std::string> Seen;
 };
-
-/// `<unit meter="..."/>` of a Collada file; the importer scales by it.
-double colladaUnit(const std::string& text)
-{
-  const std::size_t unit = text.find("<unit");
-  const std::size_t end = unit == std::string::npos ? unit : text.find('>', unit);
-  const std::size_t meter = end == std::string::npos ? end : text.find("meter=", unit);
-  double value = 1;
-  if (meter < end && meter + 7 < text.size())
-  {
-    std::from_chars(text.data() + meter + 7, text.data() + end, value);
-  }
-  return value > 0 && value < 1e30 ? value : 1;
-}
 
 /// What the standard library says of memory and sizes, in words.
 std::string inWords(const std::string& error)
@@ -263,8 +248,7 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   {
     scene.warnings.push_back("file " + name.substr(0, 200) + " not found");
   }
-  dgtk::import::convert(
-    *found, format == "gltf", format == "collada" ? colladaUnit(files->contentsOf(path, 65536)) : 1, scene);
+  dgtk::import::convert(*found, format == "gltf", scene);
   if (format == "gltf")
   {
     dgtk::import::repairGltf(

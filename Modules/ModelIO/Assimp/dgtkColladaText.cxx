@@ -34,9 +34,17 @@ std::size_t endOfMarkup(const std::string& xml, std::size_t at)
   }
   return at;
 }
+
+/// Whether a tag of such an element begins at `at`.
+bool isTagOf(const std::string& name, const std::string& xml, std::size_t at)
+{
+  at += xml.compare(at, 2, "</") == 0 ? 2 : 1;
+  return at < xml.size() && xml.compare(at, name.size(), name) == 0 &&
+         xml.find_first_of(" \t\r\n/>", at + name.size()) == at + name.size();
+}
 } // namespace
 
-std::string trimmed(std::string xml)
+std::string colladaText(std::string xml)
 {
   std::size_t to = 0;
   for (std::size_t at = 0; at < xml.size();)
@@ -45,7 +53,8 @@ std::string trimmed(std::string xml)
     const std::size_t first = std::min(xml.find_first_not_of(space, at), markup);
     const std::size_t last = first < markup ? xml.find_last_not_of(space, markup - 1) + 1 : first;
     const std::size_t end = endOfMarkup(xml, markup);
-    for (const auto& [from, until] : { std::pair{ first, last }, { markup, end } })
+    const std::size_t kept = isTagOf("unit", xml, markup) ? markup : end;
+    for (const auto& [from, until] : { std::pair{ first, last }, { markup, kept } })
     {
       std::copy(
         xml.begin() + std::ptrdiff_t(from), xml.begin() + std::ptrdiff_t(until), xml.begin() + std::ptrdiff_t(to));

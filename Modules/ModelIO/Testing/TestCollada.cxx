@@ -82,6 +82,18 @@ TEST(Collada, WhiteSpaceAroundWhatElementsHoldDoesNotCount)
   }
 }
 
+/// A unit of length says how large the numbers are elsewhere; they are kept, to the bit.
+TEST(Collada, UnitsDoNotScale)
+{
+  const std::string text = pictured;
+  const std::string unit = R"(<unit name="meter" meter="1"/>)";
+  for (const char* const other : { "", R"(<unit meter="0.01" name="centimeter"/>)", "<unit meter = '0.0254'/>",
+         R"(<unit meter="0,010000"></unit>)", "<unit\nmeter='1e3' />" })
+  {
+    expectPictured(std::string(text).replace(text.find(unit), unit.size(), other));
+  }
+}
+
 TEST(Collada, TextThatEndsAnywhereIsRefusedOrRead)
 {
   const std::string whole = pictured;
