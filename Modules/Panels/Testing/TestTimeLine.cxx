@@ -102,19 +102,19 @@ TEST(TimeLineRows, WhatIsUnderTheMouse)
   };
   const int barY = 26 + 20;
   for (const Row& row : std::vector<Row>{ { 10, 5, Target::Nothing, -1, 0 }, { 129, 20, Target::Nothing, -1, 0 },
-         { x(8.5), 14, Target::Frames, -1, 8 }, { x(8.5), 15, Target::SceneKey, -1, 8 },
-         { x(8.5), 25, Target::SceneKey, -1, 8 }, { x(9.5), 20, Target::Frames, -1, 9 },
-         { x(12.5), 20, Target::SceneKey, -1, 12 }, { 10, 26, Target::Names, 0, 0 }, { 129, 59, Target::Names, 0, 0 },
-         { x(3.5), 30, Target::Frames, 0, 3 }, { x(9.5), barY, Target::Frames, 0, 9 },
-         { x(10.5) - 1, barY, Target::Frames, 0, 10 }, { x(10.5), barY, Target::Bar, 0, 10 },
-         { x(20), 26 + 17, Target::Frames, 0, 20 }, { x(20), 26 + 18, Target::Bar, 0, 20 },
-         { x(20), 26 + 33, Target::Bar, 0, 20 }, { x(20), 26 + 34, Target::Frames, 1, 20 },
-         { x(38) - 5, barY, Target::Bar, 0, 37 }, { x(38) - 4, barY, Target::BarEnd, 0, 37 },
-         { x(38) + 4, barY, Target::BarEnd, 0, 38 }, { x(38) + 5, barY, Target::Frames, 0, 38 },
-         { x(4.5), 26 + 52, Target::Key, 2, 4 }, { x(4.5), 26 + 69, Target::Key, 2, 4 },
-         { x(5.5), 26 + 60, Target::Frames, 2, 5 }, { x(4.5), 26 + 72, Target::Frames, 3, 4 },
-         { x(20.5), 26 + 72, Target::Key, 3, 20 }, { x(20.5), 26 + 87, Target::Key, 3, 20 },
-         { x(20.5), 26 + 88, Target::Nothing, -1, 20 } })
+         { 130, 20, Target::Frames, -1, 0 }, { 130, 59, Target::Frames, 0, 0 }, { x(8.5), 14, Target::Frames, -1, 8 },
+         { x(8.5), 15, Target::SceneKey, -1, 8 }, { x(8.5), 25, Target::SceneKey, -1, 8 },
+         { x(9.5), 20, Target::Frames, -1, 9 }, { x(12.5), 20, Target::SceneKey, -1, 12 },
+         { 10, 26, Target::Names, 0, 0 }, { 129, 59, Target::Names, 0, 0 }, { x(3.5), 30, Target::Frames, 0, 3 },
+         { x(9.5), barY, Target::Frames, 0, 9 }, { x(10.5) - 1, barY, Target::Frames, 0, 10 },
+         { x(10.5), barY, Target::Bar, 0, 10 }, { x(20), 26 + 17, Target::Frames, 0, 20 },
+         { x(20), 26 + 18, Target::Bar, 0, 20 }, { x(20), 26 + 33, Target::Bar, 0, 20 },
+         { x(20), 26 + 34, Target::Frames, 1, 20 }, { x(38) - 5, barY, Target::Bar, 0, 37 },
+         { x(38) - 4, barY, Target::BarEnd, 0, 37 }, { x(38) + 4, barY, Target::BarEnd, 0, 38 },
+         { x(38) + 5, barY, Target::Frames, 0, 38 }, { x(4.5), 26 + 52, Target::Key, 2, 4 },
+         { x(4.5), 26 + 69, Target::Key, 2, 4 }, { x(5.5), 26 + 60, Target::Frames, 2, 5 },
+         { x(4.5), 26 + 72, Target::Frames, 3, 4 }, { x(20.5), 26 + 72, Target::Key, 3, 20 },
+         { x(20.5), 26 + 87, Target::Key, 3, 20 }, { x(20.5), 26 + 88, Target::Nothing, -1, 20 } })
   {
     const Hit hit = shown.hitAt({ row.x, row.y });
     EXPECT_EQ(int(hit.target), int(row.target)) << row.x << ' ' << row.y;

@@ -288,4 +288,21 @@ TEST_F(TimeLinePicture, WhereAKeyWouldComeHasItsTextBesideIt)
   }
 }
 
+TEST_F(TimeLinePicture, TheTextOfAKeyIsRightOfItAsLongAsItFits)
+{
+  Drag drag;
+  drag.from.target = Target::SceneKey;
+  drag.to = 5;
+  const auto box = [&]
+  {
+    this->paint([&](const TimeLinePainter& parts) { parts.paintDrag(drag, "MMMMM"); });
+    return this->columns(headerHeight - 14, this->color(QPalette::ToolTipBase));
+  };
+  const Columns right = box();
+  this->Shown.width = right.back() + 1;
+  EXPECT_EQ(box(), right);
+  this->Shown.width = right.back();
+  EXPECT_EQ(box().back(), namesWidth + 12 * 5 + 6 - 10);
+}
+
 } // namespace
