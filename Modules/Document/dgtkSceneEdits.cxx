@@ -74,7 +74,10 @@ void movePaths(ObjectDescription& object, const SceneDescription& from, const Sc
     for (const auto picture : materialPictures)
     {
       std::optional<std::string>& path = material.*picture;
-      path = path ? std::make_optional(moved(*path, from, to)) : path;
+      if (path)
+      {
+        path = moved(*path, from, to);
+      }
     }
   }
 }

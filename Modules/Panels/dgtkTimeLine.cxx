@@ -22,9 +22,9 @@ namespace dgtk
 namespace
 {
 constexpr int drawEvery = 10;   // milliseconds
-constexpr int rateDecimals = 3; // 23.976
+constexpr int rateDecimals = 3; // film and television: 23.976
 constexpr double slowest = 0.001;
-constexpr double fastest = 1e6; // that scenes may have
+constexpr double fastest = 1e6; // the most that a scene may have
 } // namespace
 
 QToolButton* TimeLine::addButton(QBoxLayout* layout, const char* name, int icon, const QString& tip)

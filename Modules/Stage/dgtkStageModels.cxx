@@ -392,7 +392,8 @@ void StageModels::applyOverride(const ObjectDescription& object, const Model& mo
     {
       setTexture(material, model, this->textureOf(model, *change.texture));
     }
-    for (std::size_t i = 1; i < materialPictures.size(); ++i)
+    static_assert(materialPictures.size() == materialTextures.size());
+    for (std::size_t i = 1; i < materialPictures.size(); ++i) // all but the one that is set above
     {
       const std::optional<std::string>& picture = change.*materialPictures[i];
       int& texture = material.*materialTextures[i];

@@ -20,7 +20,7 @@ using dgtk::test::sourceFile;
 
 namespace
 {
-constexpr int longestEventMs = 200; // milliseconds of the window's thread
+constexpr int longestEventMs = 200; // of the window's thread
 constexpr int side = 450;           // vertices of the large model's side
 
 /// Milliseconds that this thread has computed.

@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 
 namespace dgtk

@@ -25,12 +25,11 @@ bool equalMaterials(const Material& a, const Material& b)
                       : std::make_tuple(false, 0.0, 0.0, false);
   };
   const auto numbers = [](const Material& m)
-  {
-    return std::tie(m.shininess, m.opacity, m.texture, m.cutOut, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap,
-      m.normalMap, m.normalScale);
-  };
-  return a.name == b.name && a.ambient == b.ambient && a.diffuse == b.diffuse && a.specular == b.specular &&
-         a.emission == b.emission && numbers(a) == numbers(b) && physical(a) == physical(b);
+  { return std::tie(m.shininess, m.opacity, m.cutOut, m.normalScale, m.bumpScale, m.occlusionStrength, m.twoSided); };
+  const bool sameTextures = std::all_of(
+    materialTextures.begin(), materialTextures.end(), [&](auto texture) { return a.*texture == b.*texture; });
+  return sameTextures && a.name == b.name && a.ambient == b.ambient && a.diffuse == b.diffuse &&
+         a.specular == b.specular && a.emission == b.emission && numbers(a) == numbers(b) && physical(a) == physical(b);
 }
 
 bool equalImages(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b)

@@ -2,6 +2,7 @@
 #include "dgtkColladaText.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dgtk::import
 {
@@ -44,26 +45,23 @@ bool isTagOf(const std::string& name, const std::string& xml, std::size_t at)
 }
 } // namespace
 
-std::string colladaText(std::string xml)
+std::string colladaText(const std::string& xml)
 {
-  std::size_t to = 0;
+  std::string text;
+  text.reserve(xml.size());
   for (std::size_t at = 0; at < xml.size();)
   {
     const std::size_t markup = std::min(xml.find('<', at), xml.size());
     const std::size_t first = std::min(xml.find_first_not_of(space, at), markup);
     const std::size_t last = first < markup ? xml.find_last_not_of(space, markup - 1) + 1 : first;
-    const std::size_t end = endOfMarkup(xml, markup);
-    const std::size_t kept = isTagOf("unit", xml, markup) ? markup : end;
-    for (const auto& [from, until] : { std::pair{ first, last }, { markup, kept } })
+    text.append(xml, first, last - first);
+    at = endOfMarkup(xml, markup);
+    if (!isTagOf("unit", xml, markup))
     {
-      std::copy(
-        xml.begin() + std::ptrdiff_t(from), xml.begin() + std::ptrdiff_t(until), xml.begin() + std::ptrdiff_t(to));
-      to += until - from;
+      text.append(xml, markup, at - markup);
     }
-    at = end;
   }
-  xml.resize(to);
-  return xml;
+  return text;
 }
 
 } // namespace dgtk::import

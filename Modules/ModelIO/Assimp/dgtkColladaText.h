@@ -7,10 +7,10 @@
 namespace dgtk::import
 {
 
-/// The XML without white space at the beginning and the end of what elements hold, and without the unit of length.
+/// The XML without white space around the texts between its tags, and without the unit of length.
 /// XML Schema has that space collapsed in all lists of numbers, names and addresses of Collada; the importer refuses
 /// colours that begin with it, and takes it for a part of names. By the unit it would scale, in single precision.
-std::string colladaText(std::string xml);
+std::string colladaText(const std::string& xml);
 
 } // namespace dgtk::import
 

@@ -94,12 +94,17 @@ TEST(Collada, UnitsDoNotScale)
   }
 }
 
-TEST(Collada, TextThatEndsAnywhereIsRefusedOrRead)
+TEST(Collada, TextThatEndsAnywhereIsRefused)
 {
   const std::string whole = pictured;
   for (std::size_t size = 0; size < whole.size(); size += 97)
   {
     EXPECT_THROW(readBytes("dae", whole.substr(0, size)), dgtk::InputError) << size;
+  }
+  for (const std::string last :
+    { "<", "<?xml", "<!", "<!-- it", "<![CDATA[ \"", "<unit", "<unit name=\"m", "</", "name='" })
+  {
+    EXPECT_THROW(readBytes("dae", whole.substr(0, whole.find(last) + last.size())), dgtk::InputError) << last;
   }
 }
 } // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDistributions.h"
 
-#include "dgtkError.h"
 #include "dgtkNormal.h"
 #include "dgtkPortableMath.h"
 #include "dgtkRuleValues.h"
@@ -173,7 +172,7 @@ JsonNode drawnShell(const JsonCursor& at, const ValueUniforms& u, UpAxis up, int
   const double radius = intervalOf(at["radius"], notNegative, true).at(u(2));
   const Interval elevation = at.has("elevation") ? intervalOf(at["elevation"], latitude, true) : Interval{ -90, 90 };
   const Interval azimuth = at.has("azimuth") ? intervalOf(at["azimuth"], degrees, true) : Interval{ 0, 360 };
-  const auto sine = [](double degrees) { return portable::sinCos(degrees * (pi / 180)).sine; };
+  const auto sine = [](double angle) { return portable::sinCos(angle * (pi / 180)).sine; };
   const double height = Interval{ sine(elevation.least), sine(elevation.most) }.at(u(1));
   return around(at["center"], radius * directionOf(azimuth.at(u(0)), height, up), line);
 }

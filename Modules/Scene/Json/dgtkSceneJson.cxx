@@ -348,7 +348,10 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
       for (const auto picture : materialPictures)
       {
         std::optional<std::string>& path = material.*picture;
-        path = path ? std::make_optional(place.of(*path)) : path;
+        if (path)
+        {
+          path = place.of(*path);
+        }
       }
     }
   }
