@@ -4,7 +4,6 @@
 
 #include "dgtkModelReader.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>

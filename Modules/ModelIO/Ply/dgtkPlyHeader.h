@@ -4,7 +4,6 @@
 
 #include "dgtkModel.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>

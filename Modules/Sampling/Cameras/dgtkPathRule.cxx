@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPathRule.h"
 
+#include <string>
+
 namespace dgtk::samplerule
 {
 

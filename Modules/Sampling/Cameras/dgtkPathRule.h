@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace dgtk::samplerule
