@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """dgtk run some thousand times: started and linked once, and forked before its main() for each run (Testing/Support/dgtkManyRuns.cxx)."""
+import glob
 import os
 import queue
 import struct
@@ -9,7 +10,8 @@ from harness import DGTK
 
 BUILD = os.environ["DGTK_BUILD"]
 SERVER = os.path.join(BUILD, "lib", "libdgtk_many_runs.so")
-OTHERS = os.environ.get("LD_PRELOAD", os.path.join(BUILD, "lib", "libdgtkVerification.so"))  # which is on demand
+# What is opened on demand, by the name that it is asked for by (that of its ABI, the shortest with a version).
+OTHERS = os.environ.get("LD_PRELOAD") or min(glob.glob(os.path.join(BUILD, "lib", "libdgtkVerification.so.*")), key=len)
 
 
 class ManyRuns:

@@ -1,10 +1,10 @@
 # Seconds that long tests take on two cores, from Utilities/Maintenance/update_test_costs: CTest starts the longest first.
 set_tests_properties(CLI.packages PROPERTIES COST 85)
 set_tests_properties(CLI.pov_ids PROPERTIES COST 67)
+set_tests_properties(Exports.words PROPERTIES COST 66)
+set_tests_properties(CLI.document_words PROPERTIES COST 65)
 set_tests_properties(EditorFiles PROPERTIES COST 64)
 set_tests_properties(Exports.frame PROPERTIES COST 61)
-set_tests_properties(Exports.words PROPERTIES COST 25)
-set_tests_properties(CLI.document_words PROPERTIES COST 18)
 set_tests_properties(EditorTruth PROPERTIES COST 61)
 set_tests_properties(EditorViewer PROPERTIES COST 52)
 set_tests_properties(CLI.pov_render PROPERTIES COST 51)
