@@ -71,7 +71,7 @@ struct Material
   Eigen::Vector3d ambient{ 0.2, 0.2, 0.2 };
   Eigen::Vector3d diffuse{ 0.8, 0.8, 0.8 };
   Eigen::Vector3d specular{ 0, 0, 0 };
-  Eigen::Vector3d emission{ 0, 0, 0 };
+  Eigen::Vector3d emission{ 0, 0, 0 }; ///< of what is physical [0, 1000]: it may be brighter than white
   double shininess = 0;  ///< Phong exponent, [0, 128]
   double opacity = 1;    ///< 1 opaque; below 1 translucent for colour only
   bool twoSided = false; ///< as the file says; every surface is hit and drawn from both sides regardless

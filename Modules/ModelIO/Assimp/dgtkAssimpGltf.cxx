@@ -249,7 +249,7 @@ void requireExtension(const std::string& name, Scene& scene)
   const std::set<std::string> packing{ "KHR_draco_mesh_compression", "EXT_meshopt_compression",
     "KHR_meshopt_compression", "EXT_mesh_gpu_instancing" };
   const std::set<std::string> known{ textureTransform, "KHR_mesh_quantization", "KHR_lights_punctual",
-    "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness" };
+    "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness" };
   if (packing.count(name) > 0 && scene.error.empty())
   {
     scene.error = "needs the glTF extension " + name + ", which is not read";

@@ -57,6 +57,7 @@ private:
     const Json none = Json::object();
     const Json& material =
       primitive.contains("material") ? this->File.item("materials", primitive.at("material")) : none;
+    this->glow(material, std::size_t(mesh.material));
     this->positions(primitive, mesh);
     if (this->isStored(attributes, "NORMAL"))
     {
@@ -151,6 +152,21 @@ private:
     }
   }
 
+  /// KHR_materials_emissive_strength: times the emission, in linear light. What is unlit has its colour.
+  void glow(const Json& from, std::size_t material)
+  {
+    const Json none = Json::object();
+    const Json extensions = from.value("extensions", none);
+    const double strength = extensions.value("KHR_materials_emissive_strength", none).value("emissiveStrength", 1.0);
+    if (strength != 1 && !extensions.contains("KHR_materials_unlit") && this->Glowing.insert(material).second)
+    {
+      for (double& part : this->Whole.materials.at(material).emission)
+      {
+        part = double(portable::encodedFromLinear(float(portable::linearFromSrgb(part) * std::max(strength, 0.0))));
+      }
+    }
+  }
+
   /// What glows has no colours of vertices here: an unlit material is lit instead.
   void light(const Json& from, Material& to)
   {
@@ -215,6 +231,7 @@ private:
   Scene& Whole;
   std::vector<bool> IsDone;
   std::set<std::size_t> Said;
+  std::set<std::size_t> Glowing;
 };
 } // namespace
 

@@ -25,9 +25,9 @@ double clamped(double value, double low, double high, double fallback)
   return std::isnan(value) ? fallback : std::min(std::max(value, low), high);
 }
 
-Eigen::Vector3d clampedColor(const Eigen::Vector3d& color)
+Eigen::Vector3d clampedColor(const Eigen::Vector3d& color, double high = 1)
 {
-  return { clamped(color[0], 0, 1, 0), clamped(color[1], 0, 1, 0), clamped(color[2], 0, 1, 0) };
+  return { clamped(color[0], 0, high, 0), clamped(color[1], 0, high, 0), clamped(color[2], 0, high, 0) };
 }
 
 /// Names are printed as JSON and written into manifests: valid UTF-8 whatever the file has.
@@ -107,7 +107,7 @@ void ModelBuilder::setMaterial(int index, const Material& material)
   m.ambient = clampedColor(m.ambient);
   m.diffuse = clampedColor(m.diffuse);
   m.specular = clampedColor(m.specular);
-  m.emission = clampedColor(m.emission);
+  m.emission = clampedColor(m.emission, m.physical ? 1000 : 1);
   m.shininess = clamped(m.shininess, 0, 128, 0);
   m.opacity = clamped(m.opacity, 0, 1, 1);
   if (m.physical)

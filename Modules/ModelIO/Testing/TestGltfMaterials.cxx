@@ -250,3 +250,30 @@ TEST(Gltf, MaterialsOfExtensions)
   EXPECT_NEAR(glossy.shininess, 30, 1e-4) << "2 / 0.5^4 - 2";
   EXPECT_FALSE(glossy.physical);
 }
+
+// KHR_materials_emissive_strength, of a material that two meshes have.
+TEST(Gltf, StrengthOfWhatGlows)
+{
+  const auto emissionOf = [](const Json& extensions)
+  {
+    GltfMaker maker = plain({ { "emissiveFactor", { 1, 0.5, 0 } }, { "extensions", extensions } });
+    maker.json["extensionsUsed"] = maker.json["extensionsRequired"] = { "KHR_materials_emissive_strength" };
+    Json& primitives = maker.json["meshes"][0]["primitives"];
+    primitives.push_back(primitives[0]);
+    const auto model = readBytes("gltf", maker.gltf());
+    EXPECT_THAT(model->warnings, testing::IsEmpty());
+    return model->materials.at(0).emission;
+  };
+  const char* name = "KHR_materials_emissive_strength";
+  const Json none = Json::object();
+  EXPECT_NEAR(emissionOf({ { name, none } })[1], 0.735357, 1e-6) << "sRGB of 0.5: a strength of 1 is the usual one";
+  const Eigen::Vector3d four = emissionOf({ { name, { { "emissiveStrength", 4 } } } });
+  EXPECT_NEAR(four[0], 1.824796, 1e-6) << "1.055 4^(1 / 2.4) - 0.055";
+  EXPECT_NEAR(four[1], 1.353256, 1e-6) << "of 2";
+  EXPECT_EQ(four[2], 0);
+  EXPECT_NEAR(emissionOf({ { name, { { "emissiveStrength", 0.5 } } } })[0], 0.735357, 1e-6);
+  EXPECT_TRUE(emissionOf({ { name, { { "emissiveStrength", 0 } } } }).isZero());
+  EXPECT_EQ(emissionOf({ { name, { { "emissiveStrength", 1e30 } } } })[0], 1000);
+  EXPECT_EQ(emissionOf({ { name, { { "emissiveStrength", 4 } } }, { "KHR_materials_unlit", none } })[0], 1)
+    << "its colour, whatever it is that glows";
+}
