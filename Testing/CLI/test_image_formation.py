@@ -309,6 +309,27 @@ class ImageFormation(harness.Case):
         self.assertLess(abs(image[10:30, 10:30].mean() - n @ l), 4e-3)
         self.assertGreater(abs(n @ l - l[2]), 0.05)
 
+    def test_bumps_are_slopes_over_a_texel(self):
+        """Of a picture that is magnified: what lies a texel to the right less what lies one to the left, over two."""
+        heights = np.array([40, 40, 200, 200, 120, 40, 200, 120])
+        pictures.write_png(self.path("steps.png"), np.broadcast_to(heights[None, :, None], (8, 8, 3)).astype(np.uint8))
+        l = np.array([1.0, 2, 3]) / math.sqrt(14)
+        scene = {"objects": [{"model": "square.obj", "materials": {"*": {"ambient": [0, 0, 0], "diffuse": [1, 1, 1], "bump": "steps.png", "bumpScale": 0.2}}}],
+                 "lights": [{"kind": "directional", "position": [1, 2, 3], "target": [0, 0, 0]}], "cameras": [camera(40, 40, 3)]}
+        x = (np.arange(40) + 0.5 - 20) * 3 / 40
+        texel = 8 * (x + 1) / 2 - 0.5
+
+        def height(at):
+            low = np.floor(at).astype(int)
+            return (heights[low % 8] * (1 - at + low) + heights[(low + 1) % 8] * (at - low)) / 255
+        slope = 0.2 * (height(texel + 1) - height(texel - 1)) / 2 * 8 / 2  # 8 texels are 2 units
+        expected = (l[2] - slope * l[0]) / np.hypot(slope, 1)
+        for renderer in ("ray", "vtk"):
+            row = encoded(self.picture(scene, "--renderer", renderer, name=renderer)[20, :, 1].astype(float))
+            inside = np.abs(x) < 0.96
+            self.assertGreater(np.ptp(expected[inside]), 0.1)
+            self.assertLess(np.abs(row - expected)[inside].max(), 4e-3, renderer)
+
     def test_filters_spread_a_point_by_their_weights(self):
         scene = {"objects": [{"model": "square.obj", "materials": GLOWING, "scale": 0.05}],
                  "cameras": [camera(15, 15, 1.5)]}  # exactly the middle pixel

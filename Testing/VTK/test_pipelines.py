@@ -2,6 +2,7 @@
 """The sources of VTK pipelines, and depth from z-buffers."""
 import os
 import sys
+import tempfile
 import unittest
 
 import numpy
@@ -83,6 +84,22 @@ class Pipelines(unittest.TestCase):
         for name, array in expected.items():
             found = vtk_to_numpy(source.GetOutput().GetPointData().GetArray(name))
             numpy.testing.assert_array_equal(found.reshape(array.shape)[::-1], array)
+
+    def test_of_a_scene_that_is_loaded_anew(self):
+        def text(width):
+            return ('{"cameras": [{"name": "c", "width": %d, "height": 8, "eye": [0, 0, 5], "lookAt": [0, 0, 0], "fovY": 40, "near": 1, "far": 9}]}'
+                    % width)
+        scene, source = dgtk.dgtkScene(), dgtk.dgtkGroundTruthSource()
+        source.SetScene(scene)
+        source.SetLayers("depth")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.json")
+            for width, load in ((8, scene.LoadText), (12, scene.Load), (16, scene.Load), (20, scene.LoadText)):
+                with open(path, "w", encoding="ascii") as file:
+                    file.write(text(width))
+                self.assertTrue(load(path) if load == scene.Load else load(text(width), folder), scene.GetErrorMessage())
+                source.Update()
+                self.assertEqual(source.GetOutput().GetDimensions()[0], width)
 
     def test_failures_are_errors_of_the_pipeline(self):
         for source, words in ((dgtk.dgtkGroundTruthSource(), "neither a renderer nor a scene"), (dgtk.dgtkDepthFromZBuffer(), "")):
