@@ -40,6 +40,7 @@ enum ChunkId : std::uint16_t
   TwoSided = 0xa081,
   SelfIllumination = 0xa084,
   TextureMap = 0xa200,
+  OpacityMap = 0xa210,
   TextureName = 0xa300,
   TextureTiling = 0xa351,
   TextureScaleV = 0xa354,
@@ -220,6 +221,8 @@ private:
     Material m;
     MappedMaterial mapped;
     std::string texture;
+    MappedMaterial masked;
+    std::string mask;
     double strength = 1;
     double selfIllumination = 0;
     this->forEach(block.begin, block.end,
@@ -257,14 +260,21 @@ private:
           case TextureMap:
             texture = this->textureMap(c, mapped);
             break;
+          case OpacityMap:
+            mask = this->textureMap(c, masked);
+            break;
           default:
             break;
         }
       });
     m.specular *= strength;
     m.emission = m.diffuse * selfIllumination;
+    mapped = texture.empty() ? masked : mapped;
     m.texture = this->Builder.addTexture(texture, {}, {}, { mapped.wrap, mapped.wrap });
-    mapped.material = this->Builder.addMaterial(m);
+    MaterialAlpha alpha;
+    alpha.mask =
+      mask == texture ? MaterialAlpha::none : this->Builder.addTexture(mask, {}, {}, { masked.wrap, masked.wrap });
+    mapped.material = this->Builder.addMaterial(m, alpha);
     ++this->Builder.model().declaredMaterials;
     this->Materials.emplace(m.name, mapped); // of two with one name the first is meant
   }

@@ -176,7 +176,7 @@ void io(A& a, ModelPicture& p)
 template <class A>
 void io(A& a, MaterialAlpha& m)
 {
-  a(m.use), a(m.cutOff);
+  a(m.use), a(m.cutOff), a(m.mask), a(m.value);
 }
 template <class A>
 void io(A& a, ModelNote& n)

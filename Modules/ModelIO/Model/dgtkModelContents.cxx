@@ -7,6 +7,7 @@
 #include "dgtkTextureFile.h"
 #include "dgtkTexturePixels.h"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -15,6 +16,51 @@ namespace dgtk
 
 namespace
 {
+/// A channel of a picture of which another one of `width` x `height` is made: interpolated between the middles of its
+/// texels, its border goes on.
+double sampled(const Image& image, int channel, int x, int y, int width, int height)
+{
+  const auto between = [](int at, int size, int from)
+  {
+    const double place = std::clamp((at + 0.5) * from / size - 0.5, 0.0, from - 1.0);
+    const int low = std::min(static_cast<int>(place), std::max(from - 2, 0));
+    return std::tuple(low, std::min(low + 1, from - 1), place - low);
+  };
+  const auto [left, right, u] = between(x, width, image.width);
+  const auto [top, bottom, v] = between(y, height, image.height);
+  const auto texel = [&](int i, int j) {
+    return double(image.rgba[4 * (std::size_t(j) * std::size_t(image.width) + std::size_t(i)) + std::size_t(channel)]);
+  };
+  return (texel(left, top) * (1 - u) + texel(right, top) * u) * (1 - v) +
+         (texel(left, bottom) * (1 - u) + texel(right, bottom) * u) * v;
+}
+
+/// `own`, or white, with the alpha that a mask has.
+std::shared_ptr<Image> maskedImage(const Image* own, const Image& mask, MaskValue value, int width, int height)
+{
+  value = value != MaskValue::Usual ? value : mask.hasAlpha ? MaskValue::Alpha : MaskValue::Luminance;
+  auto made = std::make_shared<Image>();
+  made->width = width;
+  made->height = height;
+  made->rgba.reserve(std::size_t(4) * std::size_t(width) * std::size_t(height));
+  const auto add = [&made](double level) { made->rgba.push_back(static_cast<std::uint8_t>(level + 0.5)); };
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        add(own == nullptr ? 255 : sampled(*own, c, x, y, width, height));
+      }
+      const auto of = [&](int c) { return sampled(mask, c, x, y, width, height); };
+      add(value == MaskValue::Luminance ? 0.2126 * of(0) + 0.7152 * of(1) + 0.0722 * of(2)
+                                        : of(static_cast<int>(value))); // Rec. ITU-R BT.709
+    }
+  }
+  settleAlpha(*made, AlphaRule::Meant);
+  return made;
+}
+
 /// Makes the textures of a model of what it names, each file decoded once.
 class PictureMaker
 {
@@ -41,6 +87,7 @@ public:
     }
     for (std::size_t i = 0; i < this->Made.materials.size(); ++i)
     {
+      this->mask(this->Contents.alpha[i], this->Made.materials[i]);
       this->settleAlpha(this->Contents.alpha[i], this->Made.materials[i]);
     }
     this->settleCutOuts();
@@ -166,6 +213,32 @@ private:
     }
   }
 
+  /// A picture of what the material shows and of the mask's alpha; without one of its own, of white.
+  void mask(const MaterialAlpha& alpha, Material& material)
+  {
+    const auto named = static_cast<std::size_t>(alpha.mask);
+    const Image* const mask = alpha.mask < 0 ? nullptr : this->Made.textures[named].image.get();
+    if (mask == nullptr)
+    {
+      return;
+    }
+    const auto [known, isNew] = this->Masked.try_emplace({ material.texture, alpha.mask, alpha.value }, 0);
+    if (isNew)
+    {
+      const std::shared_ptr<const Image> own = this->imageOf(material);
+      const std::string name = this->Made.textures[named].name;
+      const int width = std::max(mask->width, own ? own->width : 1);
+      const int height = std::max(mask->height, own ? own->height : 1);
+      this->Store->take(name, width, height, std::uint64_t(4) * std::uint64_t(width) * std::uint64_t(height));
+      Texture texture = this->Made.textures[own ? static_cast<std::size_t>(material.texture) : named];
+      texture.path.clear(); // it is in no file
+      texture.image = maskedImage(own.get(), *mask, alpha.value, width, height);
+      known->second = static_cast<int>(this->Made.textures.size());
+      this->Made.textures.push_back(texture);
+    }
+    material.texture = known->second;
+  }
+
   /// Model has one cut-off, 0.5, and no other use of alpha: a picture that means something else by it is remade.
   void settleAlpha(const MaterialAlpha& alpha, Material& material)
   {
@@ -257,7 +330,8 @@ private:
   std::vector<std::string> NotFound; ///< a line a picture, "" for those that were found
   std::vector<std::string> NotDecoded;
   std::map<std::string, std::shared_ptr<const Image>> ByPath;
-  std::map<std::tuple<int, double, double>, int> Remade; ///< (texture, cut-off, opacity)
+  std::map<std::tuple<int, std::int32_t, MaskValue>, int> Masked; ///< (texture, mask, what of it)
+  std::map<std::tuple<int, double, double>, int> Remade;          ///< (texture, cut-off, opacity)
 };
 } // namespace
 

@@ -38,10 +38,24 @@ enum class AlphaUse : std::int32_t
   Nothing ///< the material is opaque
 };
 
+/// What of a mask's texel says how much is there.
+enum class MaskValue : std::int32_t
+{
+  Red,
+  Green,
+  Blue,
+  Alpha,
+  Luminance,
+  Usual ///< its alpha where it has one, its luminance otherwise
+};
+
 struct MaterialAlpha
 {
   AlphaUse use = AlphaUse::Holes;
   double cutOff = 0.5; ///< of AlphaUse::CutOff
+  static constexpr std::int32_t none = -1;
+  std::int32_t mask = none; ///< the picture that holds the alpha, which its own does not count beside then
+  MaskValue value = MaskValue::Usual;
 };
 
 /// A line about a model, or the place among the lines where one about its pictures stands.

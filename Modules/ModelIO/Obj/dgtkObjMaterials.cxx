@@ -42,6 +42,8 @@ ObjMaterials::Picture ObjMaterials::readPicture(ObjStatements& statements)
   static const std::map<std::string_view, int> values{ { "-blendu", 1 }, { "-blendv", 1 }, { "-boost", 1 },
     { "-mm", 2 }, { "-o", 3 }, { "-s", 3 }, { "-t", 3 }, { "-texres", 1 }, { "-clamp", 1 }, { "-bm", 1 },
     { "-imfchan", 1 }, { "-type", 1 }, { "-cc", 1 } };
+  static const std::map<std::string_view, MaskValue> channels{ { "r", MaskValue::Red }, { "g", MaskValue::Green },
+    { "b", MaskValue::Blue }, { "m", MaskValue::Alpha }, { "l", MaskValue::Luminance } };
   Picture to;
   for (;;)
   {
@@ -69,6 +71,8 @@ ObjMaterials::Picture ObjMaterials::readPicture(ObjStatements& statements)
       {
         (*numbers)[std::size_t(i)] = *number;
       }
+      const auto channel = option->first == "-imfchan" ? channels.find(word) : channels.end();
+      to.value = channel != channels.end() ? channel->second : to.value;
       to.wrap.fill(option->first == "-clamp" && word == "on" ? TextureWrap::Clamp : to.wrap[0]);
       statements.word();
     }
@@ -122,7 +126,7 @@ void ObjMaterials::readLibrary(const std::string& path)
     if (statements.keyword() == "newmtl")
     {
       const std::string name(statements.rest());
-      const auto [added, isNew] = this->Entries.try_emplace(name, Entry{ unsaid(name), {} });
+      const auto [added, isNew] = this->Entries.try_emplace(name, Entry{ unsaid(name), {}, {} });
       entry = isNew ? &added->second : nullptr; // the first one of a name counts
       this->Builder.model().declaredMaterials += isNew ? 1 : 0;
     }
@@ -167,6 +171,10 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
   {
     entry.picture = readPicture(statements);
   }
+  else if (keyword == "map_d")
+  {
+    entry.mask = readPicture(statements);
+  }
 }
 
 int ObjMaterials::add(const Entry& entry)
@@ -183,10 +191,15 @@ int ObjMaterials::add(const Entry& entry)
   }
   const Picture& picture = entry.picture;
   material.texture = this->Builder.addTexture(picture.name, {}, {}, picture.wrap);
-  const int made = this->Builder.addMaterial(material);
-  if (picture.scale != Picture().scale || picture.offset != Picture().offset)
+  MaterialAlpha alpha;
+  const bool isOwn = entry.mask.name == picture.name && entry.mask.value == MaskValue::Usual;
+  alpha.mask = isOwn ? MaterialAlpha::none : this->Builder.addTexture(entry.mask.name, {}, {}, entry.mask.wrap);
+  alpha.value = entry.mask.value;
+  const int made = this->Builder.addMaterial(material, alpha);
+  const Picture& placed = picture.name.empty() ? entry.mask : picture;
+  if (placed.scale != Picture().scale || placed.offset != Picture().offset)
   {
-    this->Moved[made] = picture;
+    this->Moved[made] = placed;
   }
   return made;
 }
@@ -219,7 +232,7 @@ int ObjMaterials::indexOf(const std::string& name)
     this->Builder.warn("material " + dgtk::quoted(name) + " is not defined: drawn grey");
   }
   const int index = this->add(
-    known != this->Entries.end() ? known->second : Entry{ unsaid(name.empty() ? "DefaultMaterial" : name), {} });
+    known != this->Entries.end() ? known->second : Entry{ unsaid(name.empty() ? "DefaultMaterial" : name), {}, {} });
   this->Made[name] = index;
   return index;
 }

@@ -30,10 +30,11 @@ public:
   void finish();
 
 private:
-  /// `map_Kd` of a material: scaled, then moved.
+  /// `map_Kd` or `map_d` of a material: scaled, then moved.
   struct Picture
   {
     std::string name;
+    MaskValue value = MaskValue::Usual; ///< of a mask
     std::array<double, 2> scale{ 1, 1 };
     std::array<double, 2> offset{ 0, 0 };
     TextureWraps wrap{};
@@ -43,6 +44,7 @@ private:
   {
     Material material;
     Picture picture;
+    Picture mask;
   };
   static Picture readPicture(class ObjStatements& statements);
 

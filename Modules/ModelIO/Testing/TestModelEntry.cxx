@@ -70,7 +70,7 @@ ModelEntry fullEntry()
   entry.contents.pictures.resize(6);
   entry.contents.pictures[1] = { "a.png", "b.png", "c d.png", "png", 2, 3, { 1, 2, 3, 4, 5 }, 0,
     { TextureWrap::Clamp, TextureWrap::Mirror } };
-  entry.contents.alpha = { { AlphaUse::CutOff, 0.25 }, { AlphaUse::Nothing, 0.5 } };
+  entry.contents.alpha = { { AlphaUse::CutOff, 0.25 }, { AlphaUse::Nothing, 0.5, 3, MaskValue::Blue } };
   entry.contents.notes = { { "a line", 5 }, { "decoding", ModelNote::ofDecoding }, { "another", ModelNote::none } };
   entry.contents.moreNotes = 17;
   entry.contents.dependencies = { { ModelDependency::Kind::Program, "blender", "DGTK_BLENDER" },
@@ -130,7 +130,7 @@ std::string said(const ModelEntry& entry)
   }
   for (const MaterialAlpha& x : c.alpha)
   {
-    out << int(x.use) << ' ' << x.cutOff << '\n';
+    out << int(x.use) << ' ' << x.cutOff << ' ' << x.mask << ' ' << int(x.value) << '\n';
   }
   for (const ModelNote& x : c.notes)
   {
