@@ -202,14 +202,16 @@ private:
     this->Builder.beginObject(node.name.empty() || node.name[0] == '<' ? mesh.name : node.name);
     const std::vector<std::uint32_t> model = this->addVertices(deformation, posed, pose, animation);
     const std::vector<Eigen::Matrix3d> linear = deformation.linearOf(posed.mesh, posed.node, pose);
+    const bool mirrored = mesh.bones.empty() && pose[posed.node].linear().determinant() < 0;
     std::vector<std::int32_t> normals;
     for (std::size_t i = 0; i < mesh.normals.size(); ++i)
     {
       const Eigen::Matrix3d& m = linear[linear.size() == 1 ? 0 : i];
-      const Eigen::Vector3d n(mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]);
+      const Eigen::Vector3d n =
+        (mirrored ? -1 : 1) * Eigen::Vector3d(mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]);
       normals.push_back(this->Builder.addNormal(turnedNormal(m, n)));
     }
-    this->addSurfaces(mesh, model, normals, mesh.bones.empty() && pose[posed.node].linear().determinant() < 0);
+    this->addSurfaces(mesh, model, normals, mirrored);
     this->Builder.endObject();
   }
 

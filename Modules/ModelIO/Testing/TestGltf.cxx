@@ -288,3 +288,16 @@ TEST(Gltf, NodeTransformsAndMirrorsTurnTheWinding)
     EXPECT_EQ(model->uvs[i], Eigen::Vector2d(p.x() / 2, 1 - p.y() / 2)); // glTF's v runs down, the model's up
   }
 }
+
+TEST(Gltf, NormalsOfMirroredNodesStayOutside)
+{
+  GltfMaker maker = plain({ { "name", "m" } });
+  const float n[] = { 0.6f, 0, 0.8f };
+  maker.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+    maker.floats("VEC3", { n[0], n[1], n[2], n[0], n[1], n[2], n[0], n[1], n[2] });
+  const auto model = readBytes("gltf", maker.gltf());
+  EXPECT_EQ(brokenPromise(*model), "");
+  const Eigen::Vector3f& normal = model->rest->normals[0];
+  EXPECT_NEAR(normal.x(), 0.6, 1e-6);
+  EXPECT_NEAR(normal.z(), -0.8, 1e-6) << "mirrored in z, as the surface is";
+}
