@@ -55,6 +55,24 @@ void check(const import::Mesh& mesh, std::size_t nodes)
     require(target.positions.size() == vertices, "a morph target and its mesh do not match");
     require(std::isfinite(target.weight), "a morph target's weight is not finite");
   }
+  require(mesh.dualQuaternions.empty() || mesh.dualQuaternions.size() == vertices, "shares and vertices do not match");
+  require(finite(mesh.dualQuaternions), "a share of dual quaternions is not finite");
+  for (const import::Blend& blend : mesh.blends)
+  {
+    require(std::isfinite(blend.percent) && finite(blend.full) && blend.full.size() == blend.targets.size() &&
+              below(blend.targets, mesh.targets.size()),
+      "a blend shape and its targets do not match");
+  }
+}
+
+void check(const import::Joint& joint)
+{
+  require(finite(joint.translation) && finite(joint.rotation) && finite(joint.scale) && finite(joint.before) &&
+            finite(joint.middle) && finite(joint.after),
+    "a node's transform is not finite");
+  std::array<std::int32_t, 3> order = joint.order;
+  std::sort(order.begin(), order.end());
+  require(order == std::array<std::int32_t, 3>{ 0, 1, 2 }, "a node turns about an axis that does not exist");
 }
 
 void checkTimes(const std::vector<double>& times)
@@ -75,6 +93,28 @@ void check(const import::Keys<N>& keys)
   for (const auto* list : { &keys.values, &keys.in, &keys.out })
   {
     require(std::all_of(list->begin(), list->end(), finite<std::array<double, N>>), "a key's value is not finite");
+  }
+}
+
+void check(const import::Curve& curve)
+{
+  const std::size_t keys = curve.times.size();
+  checkTimes(curve.times);
+  require(keys > 0 && curve.values.size() == keys && curve.segments.size() == keys && curve.handles.size() == keys,
+    "times and values of keys do not match");
+  require(finite(curve.values) && finite(curve.slopes) &&
+            std::all_of(curve.handles.begin(), curve.handles.end(), finite<std::array<double, 4>>),
+    "a key's value is not finite");
+}
+
+void check(const std::vector<import::Layer>& layers, std::int64_t curves)
+{
+  for (const import::Layer& layer : layers)
+  {
+    require(finite(layer.values) && std::isfinite(layer.weight), "a layer's value is not finite");
+    require(layer.weightCurve < curves &&
+              std::all_of(layer.curves.begin(), layer.curves.end(), [curves](std::int32_t c) { return c < curves; }),
+      "a layer names a curve that does not exist");
   }
 }
 
@@ -101,6 +141,20 @@ void check(const import::Animation& animation, std::size_t nodes)
               finite(morph.in) && finite(morph.out),
       "times and tangents of morph targets do not match");
   }
+  const auto curves = static_cast<std::int64_t>(animation.curves.size());
+  for (const import::Curve& curve : animation.curves)
+  {
+    check(curve);
+  }
+  for (const import::JointChannel& channel : animation.joints)
+  {
+    require(channel.node >= 0 && known(channel.node), "an animation moves a node that does not exist");
+    check(channel.layers, curves);
+  }
+  for (const import::BlendChannel& channel : animation.blends)
+  {
+    check(channel.layers, curves);
+  }
 }
 } // namespace
 
@@ -113,6 +167,8 @@ void checkScene(const import::Scene& scene)
     require(i == 0 ? node.parent == import::noIndex : node.parent >= 0 && node.parent < static_cast<std::int64_t>(i),
       "a node stands before its parent");
     require(finite(node.parent_from_node), "a node's transform is not finite");
+    require(node.joint.size() <= 1, "a node is several joints");
+    std::for_each(node.joint.begin(), node.joint.end(), [](const import::Joint& joint) { check(joint); });
     require(below(node.meshes, scene.meshes.size()), "a node names a mesh that does not exist");
   }
   for (const import::Mesh& mesh : scene.meshes)

@@ -159,28 +159,6 @@ Channel converted(const aiNodeAnim& from, double ticks, const NodeIndex& nodes)
   return to;
 }
 
-/// The name is that of the node (glTF) or of the mesh with a trailing `*` (FBX).
-std::int32_t findMorphNode(const Scene& scene, const NodeIndex& nodes, std::string name)
-{
-  const std::int32_t node = find(nodes, name);
-  if (node != noIndex)
-  {
-    return node;
-  }
-  name = name.substr(0, name.find('*'));
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-  {
-    for (const std::uint32_t mesh : scene.nodes[i].meshes)
-    {
-      if (mesh < scene.meshes.size() && scene.meshes[mesh].name == name)
-      {
-        return static_cast<std::int32_t>(i);
-      }
-    }
-  }
-  return find(nodes, name);
-}
-
 MorphChannel converted(const aiMeshMorphAnim& from, double ticks, std::int32_t node)
 {
   MorphChannel to;
@@ -214,7 +192,7 @@ MorphChannel converted(const aiMeshMorphAnim& from, double ticks, std::int32_t n
   return to;
 }
 
-Animation converted(const aiAnimation& from, const Scene& scene, const NodeIndex& nodes)
+Animation converted(const aiAnimation& from, const NodeIndex& nodes)
 {
   Animation to;
   const double ticks = from.mTicksPerSecond > 0 ? from.mTicksPerSecond : 25;
@@ -227,7 +205,7 @@ Animation converted(const aiAnimation& from, const Scene& scene, const NodeIndex
   for (unsigned i = 0; i < from.mNumMorphMeshChannels; ++i)
   {
     const aiMeshMorphAnim& morph = *from.mMorphMeshChannels[i];
-    to.morphs.push_back(converted(morph, ticks, findMorphNode(scene, nodes, morph.mName.C_Str())));
+    to.morphs.push_back(converted(morph, ticks, find(nodes, morph.mName.C_Str())));
   }
   for (const MorphChannel& morph : to.morphs)
   {
@@ -258,7 +236,7 @@ void convert(const aiScene& from, bool gltf, Scene& to)
   }
   for (unsigned i = 0; i < from.mNumAnimations; ++i)
   {
-    to.animations.push_back(converted(*from.mAnimations[i], to, nodes));
+    to.animations.push_back(converted(*from.mAnimations[i], nodes));
   }
 }
 

@@ -2,7 +2,7 @@
 #include "dgtkAssimpDeformation.h"
 
 #include "dgtkAssimpCheck.h"
-#include "dgtkPortableMath.h"
+#include "dgtkJointMotion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,17 +95,6 @@ Eigen::Quaterniond quaternion(const Eigen::Vector4d& q)
   const double length = q.norm();
   return length > 0 ? Eigen::Quaterniond(q[0] / length, q[1] / length, q[2] / length, q[3] / length)
                     : Eigen::Quaterniond::Identity();
-}
-
-/// Along the shorter arc (Shoemake 1985).
-Eigen::Quaterniond between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double u)
-{
-  const double cosine = a.dot(b);
-  const double angle = 2 * portable::asin(std::sqrt(std::max(0.0, (1 - std::abs(cosine)) / 2)));
-  const double sine = portable::sin(angle);
-  const double first = sine < 1e-9 ? 1 - u : portable::sin((1 - u) * angle) / sine;
-  const double second = sine < 1e-9 ? u : portable::sin(u * angle) / sine;
-  return Eigen::Quaterniond(first * a.coeffs() + (cosine < 0 ? -second : second) * b.coeffs());
 }
 
 Eigen::Quaterniond rotationAt(const import::Keys<4>& keys, double time)
@@ -218,14 +207,7 @@ std::vector<Eigen::Affine3d> AssimpDeformation::pose(int animation, double time)
       }
     }
   }
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-  {
-    if (nodes[i].parent >= 0)
-    {
-      pose[i] = pose[static_cast<std::size_t>(nodes[i].parent)] * pose[i];
-    }
-  }
-  return pose;
+  return poseOf(nodes, pose, this->animationOf(animation), time);
 }
 
 std::vector<double> AssimpDeformation::weightsAt(const PosedMesh& posed, int animation, double time) const
@@ -237,6 +219,10 @@ std::vector<double> AssimpDeformation::weightsAt(const PosedMesh& posed, int ani
     weights.push_back(target.weight);
   }
   const import::Animation* known = this->animationOf(animation);
+  for (const import::Blend& blend : mesh.blends)
+  {
+    addWeights(blend, percentAt(blend, known, time), weights);
+  }
   if (!known)
   {
     return weights;
@@ -263,20 +249,20 @@ std::vector<double> AssimpDeformation::weightsAt(const PosedMesh& posed, int ani
   return weights;
 }
 
-void AssimpDeformation::positionsOf(const PosedMesh& posed, const std::vector<Eigen::Affine3d>& pose, int animation,
+void AssimpDeformation::positionsOf(const PosedMesh& where, const std::vector<Eigen::Affine3d>& pose, int animation,
   double time, std::vector<Eigen::Vector3d>& positions) const
 {
-  const import::Mesh& mesh = this->Scene->meshes[posed.mesh];
-  const Skin& skin = this->Skins[posed.mesh];
-  const std::vector<double> weights = this->weightsAt(posed, animation, time);
-  const Eigen::Affine3d& model_from_mesh = pose[posed.node];
+  const import::Mesh& mesh = this->Scene->meshes[where.mesh];
+  const Skin& skin = this->Skins[where.mesh];
+  const std::vector<double> weights = this->weightsAt(where, animation, time);
+  const Eigen::Affine3d& model_from_mesh = pose[where.node];
   std::vector<Eigen::Affine3d> model_from_bind;
   for (const import::Bone& bone : mesh.bones)
   {
     model_from_bind.push_back(
       bone.node >= 0 ? pose[static_cast<std::size_t>(bone.node)] * affine(bone.bone_from_mesh) : model_from_mesh);
   }
-  for (const std::uint32_t vertex : posed.vertices)
+  for (const std::uint32_t vertex : where.vertices)
   {
     const Eigen::Vector3d rest = point(mesh.positions[vertex]);
     Eigen::Vector3d p = rest;
@@ -287,15 +273,28 @@ void AssimpDeformation::positionsOf(const PosedMesh& posed, const std::vector<Ei
         p += weights[i] * (point(mesh.targets[i].positions[vertex]) - rest);
       }
     }
+    const double dualShare = mesh.dualQuaternions.empty() ? 0 : mesh.dualQuaternions[vertex];
+    DualQuaternions dual;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double total = 0;
     for (std::size_t i = skin.first.empty() ? 0 : skin.first[vertex]; !skin.first.empty() && i < skin.first[vertex + 1];
          ++i)
     {
-      sum += double(skin.list[i].weight) * (model_from_bind[skin.list[i].bone] * p);
+      const Eigen::Affine3d& moved = model_from_bind[skin.list[i].bone];
+      sum += double(skin.list[i].weight) * (moved * p);
       total += double(skin.list[i].weight);
+      if (dualShare > 0)
+      {
+        dual.add(moved, double(skin.list[i].weight));
+      }
     }
-    positions.push_back(total > 0 ? Eigen::Vector3d(sum / total) : model_from_mesh * p);
+    Eigen::Vector3d posed = model_from_mesh * p;
+    if (total > 0)
+    {
+      posed = sum / total;
+      posed = dualShare > 0 ? Eigen::Vector3d((1 - dualShare) * posed + dualShare * dual(p)) : posed;
+    }
+    positions.push_back(posed);
   }
 }
 
@@ -391,24 +390,26 @@ bool AssimpDeformation::moves() const
     const std::int32_t parent = this->Scene->nodes[i].parent;
     drawn[parent >= 0 ? static_cast<std::size_t>(parent) : 0] |= drawn[i];
   }
-  for (const import::Animation& animation : this->Scene->animations)
+  const auto isDrawn = [&drawn](const auto& channel)
+  { return channel.node >= 0 && drawn[static_cast<std::size_t>(channel.node)] != 0; };
+  const auto isUsed = [this](const import::BlendChannel& channel)
   {
-    for (const import::Channel& channel : animation.channels)
-    {
-      if (channel.node >= 0 && drawn[static_cast<std::size_t>(channel.node)])
+    const auto has = [&channel](const import::Blend& blend) { return blend.number == channel.number; };
+    return std::any_of(this->Meshes.begin(), this->Meshes.end(),
+      [&](const PosedMesh& posed)
       {
-        return true;
-      }
-    }
-    for (const import::MorphChannel& morph : animation.morphs)
+        const std::vector<import::Blend>& blends = this->Scene->meshes[posed.mesh].blends;
+        return std::any_of(blends.begin(), blends.end(), has);
+      });
+  };
+  return std::any_of(this->Scene->animations.begin(), this->Scene->animations.end(),
+    [&](const import::Animation& animation)
     {
-      if (morph.node >= 0 && drawn[static_cast<std::size_t>(morph.node)])
-      {
-        return true;
-      }
-    }
-  }
-  return false;
+      return std::any_of(animation.channels.begin(), animation.channels.end(), isDrawn) ||
+             std::any_of(animation.morphs.begin(), animation.morphs.end(), isDrawn) ||
+             std::any_of(animation.joints.begin(), animation.joints.end(), isDrawn) ||
+             std::any_of(animation.blends.begin(), animation.blends.end(), isUsed);
+    });
 }
 
 } // namespace dgtk

@@ -243,16 +243,25 @@ bool stands(const GltfFile& file, const char* list, const char* text)
   return file.root().value(list, Json::array()).dump().find(text) != std::string::npos;
 }
 
-/// What is packed in a way that is not read would be a model of other triangles.
+/// Whether an extension packs triangles in a way that is not read: the model would have others.
+bool isPacking(const std::string& extension)
+{
+  return extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression" ||
+         extension == "KHR_meshopt_compression" || extension == "EXT_mesh_gpu_instancing";
+}
+
+std::string needs(const std::string& extension)
+{
+  return "needs the glTF extension " + extension + ", which is not read";
+}
+
 void requireExtension(const std::string& name, Scene& scene)
 {
-  const std::set<std::string> packing{ "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-    "KHR_meshopt_compression", "EXT_mesh_gpu_instancing" };
   const std::set<std::string> known{ textureTransform, "KHR_mesh_quantization", "KHR_lights_punctual",
     "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness" };
-  if (packing.count(name) > 0 && scene.error.empty())
+  if (isPacking(name) && scene.error.empty())
   {
-    scene.error = "needs the glTF extension " + name + ", which is not read";
+    scene.error = needs(name);
   }
   else if (known.count(name) == 0)
   {
@@ -283,6 +292,15 @@ std::string problemOf(const Step& step)
   }
 }
 } // namespace
+
+std::string gltfProblem(const std::string& path, const ReadContents& contentsOf)
+{
+  std::set<std::string> extensions;
+  const std::string problem =
+    problemOf([&] { extensions = extensionsOf(GltfFile(path, contentsOf), "extensionsRequired"); });
+  const auto packing = std::find_if(extensions.begin(), extensions.end(), isPacking);
+  return packing != extensions.end() ? needs(*packing) : problem;
+}
 
 void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& scene)
 {

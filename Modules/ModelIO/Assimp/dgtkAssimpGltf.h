@@ -19,6 +19,9 @@ using ReadContents = std::function<std::string(const std::string& name)>;
 /// warning, but what would be other triangles: that is Scene::error.
 void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& scene);
 
+/// Why Assimp may refuse a glTF file, in words, or "": what it says itself is seldom the reason.
+std::string gltfProblem(const std::string& path, const ReadContents& contentsOf);
+
 } // namespace dgtk::import
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef dgtkAssimpStream_h
 #define dgtkAssimpStream_h
 
+#include "dgtkImportMotion.h"
 #include "dgtkStream.h"
 
 #include <array>
@@ -104,6 +105,8 @@ struct Mesh
   std::vector<std::uint32_t> faceVertices;         ///< all faces, one after the other
   std::vector<Bone> bones;
   std::vector<Target> targets;
+  std::vector<Blend> blends;           ///< when there are some, they give the targets' weights
+  std::vector<double> dualQuaternions; ///< share of dual quaternions in the skinning, one a vertex, or none
 };
 
 /// Parents stand before their children; node 0 is the root.
@@ -113,6 +116,7 @@ struct Node
   std::int32_t parent = noIndex;
   Matrix parent_from_node{};
   std::vector<std::uint32_t> meshes;
+  std::vector<Joint> joint{}; ///< at most one: it says where the node is, instead of the matrix
 };
 
 /// What happens between two keys.
@@ -159,6 +163,9 @@ struct Animation
   double duration = 0; ///< seconds
   std::vector<Channel> channels;
   std::vector<MorphChannel> morphs;
+  std::vector<Curve> curves;
+  std::vector<JointChannel> joints;
+  std::vector<BlendChannel> blends;
 };
 
 struct Scene
@@ -207,12 +214,12 @@ template <class A>
 void io(A& a, Mesh& m)
 {
   a(m.name), a(m.material), a(m.positions), a(m.normals), a(m.uvs), a(m.colors), a(m.faceSizes), a(m.faceVertices);
-  a(m.bones), a(m.targets);
+  a(m.bones), a(m.targets), a(m.blends), a(m.dualQuaternions);
 }
 template <class A>
 void io(A& a, Node& n)
 {
-  a(n.name), a(n.parent), a(n.parent_from_node), a(n.meshes);
+  a(n.name), a(n.parent), a(n.parent_from_node), a(n.meshes), a(n.joint);
 }
 template <class A, std::size_t N>
 void io(A& a, Keys<N>& k)
@@ -232,7 +239,7 @@ void io(A& a, MorphChannel& c)
 template <class A>
 void io(A& a, Animation& n)
 {
-  a(n.name), a(n.duration), a(n.channels), a(n.morphs);
+  a(n.name), a(n.duration), a(n.channels), a(n.morphs), a(n.curves), a(n.joints), a(n.blends);
 }
 constexpr std::uint32_t streamBegin = 0x31494744;
 constexpr std::uint32_t streamEnd = 0x45494744;

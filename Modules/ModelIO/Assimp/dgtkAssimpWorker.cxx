@@ -5,6 +5,7 @@
 #include "dgtkAssimpConvert.h"
 #include "dgtkAssimpGltf.h"
 #include "dgtkColladaText.h"
+#include "dgtkFbxImport.h"
 #include "dgtkHelperChannel.h"
 #include "dgtkHelperWall.h"
 #include "dgtkImportProtocol.h"
@@ -13,13 +14,16 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/MemoryIOWrapper.h>
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -109,6 +113,13 @@ std::uint64_t lineOfLongNumber(int file)
   return 0;
 }
 
+std::string bytesOf(Assimp::IOStream& file)
+{
+  std::string bytes(file.FileSize(), '\0');
+  bytes.resize(file.Read(bytes.data(), 1, bytes.size()));
+  return bytes;
+}
+
 /// The model's files, through the library; lets memory grow with what was read.
 class Files : public Assimp::DefaultIOSystem
 {
@@ -170,13 +181,6 @@ private:
     std::string path;
   };
 
-  static std::string bytesOf(Assimp::IOStream& file)
-  {
-    std::string bytes(file.FileSize(), '\0');
-    bytes.resize(file.Read(bytes.data(), 1, bytes.size()));
-    return bytes;
-  }
-
   static Assimp::IOStream* colladaStream(Assimp::IOStream& file)
   {
     const std::string text = dgtk::import::colladaText(bytesOf(file));
@@ -220,28 +224,70 @@ std::string inWords(const std::string& error)
       return memoryError;
     }
   }
+  if (error.find("No suitable reader found") != std::string::npos)
+  {
+    return "its importer finds nothing of that format in it";
+  }
   return error.empty() ? "its importer says no more" : error;
+}
+
+/// Leaves no importer but those of an extension: Assimp tries all of them on a file that its own one does not take.
+void keepImportersOf(const std::string& extension, Assimp::Importer& importer)
+{
+  std::string word = extension.substr(extension.empty() ? 0 : 1);
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;)
+  {
+    const std::string words = std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + ' ';
+    if (words.find(' ' + word + ' ') == std::string::npos)
+    {
+      importer.UnregisterLoader(importer.GetImporter(i));
+    }
+  }
+}
+
+bool refuseLongNumber(const Files& files, Scene& scene)
+{
+  if (files.LongNumber.empty())
+  {
+    return false;
+  }
+  scene.error = "a number has more than " + std::to_string(mostDigits) + " digits";
+  scene.errorFile = files.LongNumber;
+  scene.errorLine = files.Line;
+  return true;
 }
 
 void read(const std::string& path, const std::string& format, Scene& scene)
 {
+  if (format == "fbx")
+  {
+    Files own(false);
+    const std::unique_ptr<Assimp::IOStream> file(own.Open(path.c_str(), "rb"));
+    scene.bytesRead = own.Bytes;
+    if (!refuseLongNumber(own, scene))
+    {
+      dgtk::import::readFbx(file ? bytesOf(*file) : std::string(), scene);
+    }
+    return;
+  }
   Assimp::Importer importer;
+  keepImportersOf(std::filesystem::path(path).extension().string(), importer);
   auto* files = new Files(format == "collada"); // the importer owns it
   importer.SetIOHandler(files);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
   const aiScene* found = importer.ReadFile(path, format == "gltf" ? 0u : unsigned(aiProcess_TransformUVCoords));
   scene.bytesRead = files->Bytes;
-  if (!files->LongNumber.empty())
+  if (refuseLongNumber(*files, scene))
   {
-    scene.error = "a number has more than " + std::to_string(mostDigits) + " digits";
-    scene.errorFile = files->LongNumber;
-    scene.errorLine = files->Line;
     return;
   }
+  const auto contents = [files](const std::string& name) { return files->contentsOf(name); };
   if (!found)
   {
-    scene.error = inWords(importer.GetErrorString());
+    const std::string problem = format == "gltf" ? dgtk::import::gltfProblem(path, contents) : std::string();
+    scene.error = problem.empty() ? inWords(importer.GetErrorString()) : problem;
     return;
   }
   for (const std::string& name : files->Missing)
@@ -251,8 +297,7 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   dgtk::import::convert(*found, format == "gltf", scene);
   if (format == "gltf")
   {
-    dgtk::import::repairGltf(
-      path, [files](const std::string& name) { return files->contentsOf(name); }, scene);
+    dgtk::import::repairGltf(path, contents, scene);
   }
 }
 

@@ -43,12 +43,38 @@ bool isTagOf(const std::string& name, const std::string& xml, std::size_t at)
   return at < xml.size() && xml.compare(at, name.size(), name) == 0 &&
          xml.find_first_of(" \t\r\n/>", at + name.size()) == at + name.size();
 }
+/// Names pictures of which the file says nothing, as it may: Assimp 5.2 refuses it for them.
+class PictureNames
+{
+public:
+  /// What to write before the markup [begin, end) of the file.
+  std::string before(const std::string& xml, std::size_t begin, std::size_t end)
+  {
+    const bool isImage = isTagOf("image", xml, begin);
+    if (isImage && xml[begin + 1] != '/')
+    {
+      const std::string tag = xml.substr(begin, end - begin);
+      const std::size_t id = tag.find(" id=");
+      const std::size_t name = std::min(id, tag.size() - 5) + 5;
+      this->Name = id == std::string::npos ? "?" : tag.substr(name, tag.find(tag[name - 1], name) - name);
+      this->IsMissing = true;
+      return {};
+    }
+    this->IsMissing = this->IsMissing && !isTagOf("init_from", xml, begin) && !isTagOf("data", xml, begin);
+    return isImage && std::exchange(this->IsMissing, false) ? "<init_from>" + this->Name + "</init_from>" : "";
+  }
+
+private:
+  bool IsMissing = false;
+  std::string Name;
+};
 } // namespace
 
 std::string colladaText(const std::string& xml)
 {
   std::string text;
   text.reserve(xml.size());
+  PictureNames pictures;
   for (std::size_t at = 0; at < xml.size();)
   {
     const std::size_t markup = std::min(xml.find('<', at), xml.size());
@@ -56,6 +82,7 @@ std::string colladaText(const std::string& xml)
     const std::size_t last = first < markup ? xml.find_last_not_of(space, markup - 1) + 1 : first;
     text.append(xml, first, last - first);
     at = endOfMarkup(xml, markup);
+    text += pictures.before(xml, markup, at);
     if (!isTagOf("unit", xml, markup))
     {
       text.append(xml, markup, at - markup);

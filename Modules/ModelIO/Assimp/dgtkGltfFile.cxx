@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkGltfFile.h"
 
+#include "dgtkImportBase64.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -23,27 +25,12 @@ std::size_t littleWord(const std::string& bytes, std::size_t at)
   return value;
 }
 
-/// RFC 4648
 std::string fromBase64(const std::string& text, std::size_t begin)
 {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (std::size_t i = begin; i < text.size() && text[i] != '='; ++i)
+  if (!addBase64(std::string_view(text).substr(begin), bytes))
   {
-    const std::size_t digit = digits.find(text[i]);
-    if (digit == std::string::npos)
-    {
-      GltfFile::fail("a buffer is not base64");
-    }
-    group = group << 6 | static_cast<std::uint32_t>(digit);
-    bits += 6;
-    if (bits >= 8)
-    {
-      bits -= 8;
-      bytes += static_cast<char>(group >> bits & 255);
-    }
+    GltfFile::fail("a buffer is not base64");
   }
   return bytes;
 }

@@ -8,18 +8,18 @@ namespace dgtk
 
 namespace
 {
-using Words = std::set<std::string>;
+using WordSet = std::set<std::string>;
 
-const Words groupWords = { "union", "difference", "intersection", "merge", "light_group" };
+const WordSet groupWords = { "union", "difference", "intersection", "merge", "light_group" };
 /// Shapes that are not made of triangles.
-const Words primitiveWords = { "bicubic_patch", "blob", "box", "cone", "cubic", "cylinder", "disc", "height_field",
+const WordSet primitiveWords = { "bicubic_patch", "blob", "box", "cone", "cubic", "cylinder", "disc", "height_field",
   "isosurface", "julia_fractal", "lathe", "lemon", "ovus", "parametric", "plane", "poly", "polygon", "polynomial",
   "prism", "quadric", "quartic", "sor", "sphere", "sphere_sweep", "superellipsoid", "text", "torus" };
 /// Statements about everything but shapes.
-const Words sceneryWords = { "atmosphere", "background", "fog", "global_settings", "light_source", "looks_like",
+const WordSet sceneryWords = { "atmosphere", "background", "fog", "global_settings", "light_source", "looks_like",
   "media", "photons", "radiosity", "rainbow", "sky_sphere", "interior", "density", "atmospheric_media" };
 /// Other values that a name may stand for.
-const Words valueWords = { "normal", "color_map", "colour_map", "pigment_map", "normal_map", "texture_map",
+const WordSet valueWords = { "normal", "color_map", "colour_map", "pigment_map", "normal_map", "texture_map",
   "slope_map" };
 } // namespace
 

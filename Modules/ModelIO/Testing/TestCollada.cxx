@@ -108,3 +108,14 @@ TEST(Collada, TextThatEndsAnywhereIsRefused)
   }
 }
 } // namespace
+
+TEST(Collada, PicturesOfWhichTheFileSaysNothingAreNotFound)
+{
+  std::string text = pictured;
+  const std::string said = "<init_from>a picture.png</init_from>";
+  text.replace(text.find(said), said.size(), "<!-- " + said + " -->");
+  const auto model = readBytes("dae", text);
+  EXPECT_EQ(model->triangles.size(), 2u);
+  ASSERT_EQ(model->textures.size(), 1u);
+  EXPECT_EQ(model->textures[0].name, "i");
+}

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// FBX: files, shapes, where things are, materials.
+#include "dgtkFbxMaker.h"
+#include "dgtkFile.h"
+#include "dgtkModelChecks.h"
+#include "dgtkTestSupport.h"
+
+#include <Eigen/Geometry>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace dgtk::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace
+{
+constexpr double degree = 3.14159265358979323846 / 180;
+using Numbers = FbxMaker::Numbers;
+
+std::shared_ptr<const dgtk::Model> read(const FbxMaker& maker)
+{
+  auto model = readBytes("fbx", maker.text());
+  EXPECT_EQ(brokenPromise(*model), "");
+  return model;
+}
+
+Eigen::Affine3d turn(double x, double y, double z)
+{
+  return Eigen::Affine3d(Eigen::AngleAxisd(z * degree, Eigen::Vector3d::UnitZ()) *
+                         Eigen::AngleAxisd(y * degree, Eigen::Vector3d::UnitY()) *
+                         Eigen::AngleAxisd(x * degree, Eigen::Vector3d::UnitX()));
+}
+Eigen::Affine3d shift(double x, double y, double z) { return Eigen::Affine3d(Eigen::Translation3d(x, y, z)); }
+Eigen::Affine3d scale(double x, double y, double z) { return Eigen::Affine3d(Eigen::Scaling(x, y, z)); }
+
+/// The corners of FbxMaker::mesh(), as `transform` places them.
+void expectPlaced(const dgtk::Model& model, const Eigen::Affine3d& transform, const std::string& what = {})
+{
+  ASSERT_EQ(model.triangles.size(), 1u);
+  const Eigen::Vector3d corners[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+  for (const Eigen::Vector3d& corner : corners)
+  {
+    double nearest = 1e9;
+    for (const Eigen::Vector3d& p : model.rest->positions)
+    {
+      nearest = std::min(nearest, (p - transform * corner).norm());
+    }
+    EXPECT_LT(nearest, 1e-12) << what;
+  }
+}
+
+FbxItem layerOf(
+  const std::string& type, const std::string& mapping, const std::string& reference, std::vector<FbxItem> values)
+{
+  FbxItem layer{ type, { std::int64_t(0) },
+    { { "MappingInformationType", { mapping } }, { "ReferenceInformationType", { reference } } } };
+  layer.children.insert(layer.children.end(), values.begin(), values.end());
+  return layer;
+}
+} // namespace
+
+TEST(Fbx, TextAndAllKindsOfBinaryFilesAreTheSameModel)
+{
+  FbxMaker maker;
+  maker.mesh(maker.model(0, "quad"), { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.25 }, { 0, 1, 2, -4 });
+  const auto text = read(maker);
+  EXPECT_EQ(text->triangles.size(), 2u);
+  EXPECT_EQ(text->parts[0].name, "quad");
+  EXPECT_EQ(text->sourceVertices, 4u);
+  for (int i = 0; i < 16; ++i)
+  {
+    const FbxBinary how{ (i & 1) != 0, (i & 2) != 0, (i & 4) != 0, (i & 8) != 0 };
+    const auto model = readBytes("fbx", maker.binary(how));
+    EXPECT_EQ(model->rest->positions, text->rest->positions) << i;
+    EXPECT_EQ(model->triangles, text->triangles) << i;
+    EXPECT_EQ(model->parts[0].name, "quad") << i;
+  }
+}
+
+TEST(Fbx, WhatIsNoFileOfVersion7IsRefused)
+{
+  FbxMaker maker;
+  maker.mesh(maker.model());
+  maker.version = 6100;
+  EXPECT_THAT(refusal("fbx", maker.text()), HasSubstr("has version 6100 of FBX: 7000 (FBX 2011) and later are read"));
+  maker.version = 0;
+  EXPECT_THAT(refusal("fbx", maker.text()), HasSubstr("has nothing of an FBX file"));
+  EXPECT_THAT(refusal("fbx", ""), HasSubstr("has nothing of an FBX file"));
+  EXPECT_THAT(refusal("fbx", "a: 1\nb 2\n"), HasSubstr("expected a colon, on line 2"));
+  EXPECT_THAT(refusal("fbx", "a: \"x\n"), HasSubstr("a text does not end, on line 1"));
+  EXPECT_THAT(refusal("fbx", "a: {\nb: 1\n"), HasSubstr("an element does not end, on line 3"));
+  EXPECT_THAT(refusal("fbx", "a: *2 {\na: 1,2\n"), HasSubstr("a list of numbers does not end"));
+  EXPECT_THAT(refusal("fbx", "a: *2 {\nb: 1,2 }\n"), HasSubstr("expected the numbers of a list, on line 2"));
+  EXPECT_THAT(refusal("fbx", "}\n"), HasSubstr("expected an element, on line 1"));
+  std::string deep;
+  for (int i = 0; i < 100; ++i)
+  {
+    deep += "a: {";
+  }
+  EXPECT_THAT(refusal("fbx", deep), HasSubstr("elements are nested too deeply"));
+  const std::string whole = FbxMaker().binary();
+  EXPECT_EQ(refusal("fbx", whole), "");
+  EXPECT_THAT(refusal("fbx", whole.substr(0, whole.size() - 1)), HasSubstr("ends before its last element"));
+  EXPECT_THAT(
+    refusal("fbx", whole.substr(0, 100)), HasSubstr("has an element that does not fit its place, at byte 27"));
+}
+
+TEST(Fbx, DamagedBinaryFilesAreRefusedWithThePlace)
+{
+  FbxMaker maker;
+  maker.mesh(maker.model());
+  const FbxBinary how{ true, true, false, false };
+  const std::string good = maker.binary(how);
+  std::string bad = good;
+  const std::size_t list = bad.find("Vertices") + 8;
+  ASSERT_EQ(bad[list], 'd');
+  bad[list] = '?';
+  EXPECT_THAT(
+    refusal("fbx", bad), HasSubstr("has a value of a type that is not known, at byte " + std::to_string(list)));
+  bad = good;
+  bad[list + 1] = 100;
+  EXPECT_THAT(refusal("fbx", bad), HasSubstr("has a list that cannot be decompressed"));
+  bad[list + 5] = 0;
+  EXPECT_THAT(refusal("fbx", bad), HasSubstr("has a list of another length than it says"));
+  bad = good;
+  bad[list + 4] = 0x7f;
+  EXPECT_THAT(refusal("fbx", bad), HasSubstr("asks for more memory than a file of its size may"));
+  bad = good;
+  bad[28] = 0x7f;
+  EXPECT_THAT(refusal("fbx", bad), HasSubstr("has an element that does not fit its place, at byte 27"));
+}
+
+TEST(Fbx, NodesHavePivotsOffsetsAndTurns)
+{
+  FbxMaker maker;
+  const std::int64_t node = maker.model();
+  maker.mesh(node);
+  maker.set(node, "Lcl Translation", { 1, 2, 3 });
+  maker.set(node, "Lcl Rotation", { 10, 20, 30 });
+  maker.set(node, "Lcl Scaling", { 2, 3, 0.5 });
+  maker.set(node, "RotationOffset", { 0.5, 0.25, 0.125 });
+  maker.set(node, "RotationPivot", { 1, 0, 2 });
+  maker.set(node, "ScalingOffset", { 0.1, 0.2, 0.3 });
+  maker.set(node, "ScalingPivot", { 0, 1, 0.5 });
+  maker.set(node, "PreRotation", { 40, 0, 50 });
+  maker.set(node, "PostRotation", { 0, 60, 70 });
+  const Eigen::Affine3d outside = shift(1, 2, 3) * shift(0.5, 0.25, 0.125) * shift(1, 0, 2);
+  const Eigen::Affine3d inside =
+    shift(-1, 0, -2) * shift(0.1, 0.2, 0.3) * shift(0, 1, 0.5) * scale(2, 3, 0.5) * shift(0, -1, -0.5);
+  expectPlaced(
+    *read(maker), outside * turn(10, 20, 30) * inside, "turns before and after count only where they are active");
+  maker.set(node, "RotationActive", Numbers{ 1 });
+  expectPlaced(*read(maker), outside * turn(40, 0, 50) * turn(10, 20, 30) * turn(0, 60, 70).inverse() * inside);
+  maker.set(node, "RotationSpaceForLimitOnly", Numbers{ 1 });
+  expectPlaced(*read(maker), outside * turn(10, 20, 30) * inside);
+}
+
+TEST(Fbx, NodesTurnInTheirOrder)
+{
+  const Eigen::Affine3d x = turn(10, 0, 0);
+  const Eigen::Affine3d y = turn(0, 20, 0);
+  const Eigen::Affine3d z = turn(0, 0, 30);
+  const Eigen::Affine3d orders[] = { z * y * x, y * z * x, x * z * y, z * x * y, y * x * z, x * y * z, z * y * x };
+  for (int order = 0; order < 7; ++order)
+  {
+    FbxMaker maker;
+    const std::int64_t node = maker.model();
+    maker.mesh(node);
+    maker.set(node, "Lcl Rotation", { 10, 20, 30 });
+    maker.set(node, "RotationActive", Numbers{ 1 });
+    maker.set(node, "RotationOrder", { double(order) });
+    expectPlaced(*read(maker), orders[order], std::to_string(order));
+  }
+}
+
+TEST(Fbx, ChildrenTakeOverScalesAsTheySay)
+{
+  for (int type = 0; type < 3; ++type)
+  {
+    FbxMaker maker;
+    const std::int64_t top = maker.model();
+    const std::int64_t middle = maker.model(top);
+    const std::int64_t node = maker.model(middle);
+    maker.mesh(node);
+    maker.set(top, "Lcl Scaling", { 5, 1, 1 });
+    maker.set(middle, "Lcl Translation", { 0, 0, 7 });
+    maker.set(middle, "Lcl Scaling", { 2, 3, 4 });
+    maker.set(node, "Lcl Translation", { 1, 1, 1 });
+    maker.set(node, "Lcl Rotation", { 0, 0, 30 });
+    maker.set(node, "InheritType", { double(type) });
+    const Eigen::Affine3d above = scale(5, 1, 1) * shift(0, 0, 7);
+    const Eigen::Affine3d expected[] = { above * shift(2, 3, 4) * turn(0, 0, 30) * scale(2, 3, 4),
+      above * scale(2, 3, 4) * shift(1, 1, 1) * turn(0, 0, 30), above * shift(2, 3, 4) * turn(0, 0, 30) };
+    expectPlaced(*read(maker), expected[type], std::to_string(type));
+  }
+}
+
+TEST(Fbx, DefaultsOfItsClassCountWhereAnObjectIsSilent)
+{
+  FbxMaker maker;
+  maker.definitions = { { "ObjectType", { std::string("Model") },
+    { { "PropertyTemplate", { std::string("FbxNode") },
+      { { "Properties70", {},
+        { { "P", { std::string("Lcl Translation"), std::string(), std::string(), std::string(), std::int64_t(4), 0.5,
+                   6. } } } } } } } } };
+  const std::int64_t node = maker.model();
+  maker.mesh(node);
+  expectPlaced(*read(maker), shift(4, 0.5, 6));
+  maker.set(node, "Lcl Translation", { 1, 0, 0 });
+  expectPlaced(*read(maker), shift(1, 0, 0));
+}
+
+TEST(Fbx, GeometricTransformsAreNotPassedOn)
+{
+  FbxMaker maker;
+  const std::int64_t node = maker.model();
+  maker.set(node, "GeometricTranslation", { 1, 2, 3 });
+  maker.set(node, "GeometricRotation", { 10, 20, 30 });
+  maker.set(node, "GeometricScaling", { 2, 2, 3 });
+  const std::int64_t child = maker.model(node);
+  const std::int64_t mesh = maker.mesh(child);
+  expectPlaced(*read(maker), Eigen::Affine3d::Identity());
+  maker.connect(mesh, node); // the same geometry twice
+  const auto model = read(maker);
+  ASSERT_EQ(model->triangles.size(), 2u);
+  const Eigen::Vector3d moved = shift(1, 2, 3) * turn(10, 20, 30) * scale(2, 2, 3) * Eigen::Vector3d(0, 1, 0);
+  EXPECT_NEAR(model->boundsMax.z(), std::max(moved.z(), 3.0), 3);
+  double nearest = 1e9;
+  for (const Eigen::Vector3d& p : model->rest->positions)
+  {
+    nearest = std::min(nearest, (p - moved).norm());
+  }
+  EXPECT_LT(nearest, 1e-12);
+}
+
+TEST(Fbx, NormalsAndTextureCoordinatesByCornerPointAndPolygon)
+{
+  const auto modelOf = [](const FbxItem& normals, const FbxItem& uvs)
+  {
+    FbxMaker maker;
+    const std::int64_t mesh = maker.mesh(maker.model(), { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, { 0, 1, -3, 0, 2, -4 });
+    maker.item(mesh).children.push_back(normals);
+    maker.item(mesh).children.push_back(uvs);
+    return read(maker);
+  };
+  const Numbers ofCorners{ 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 1 };
+  const Numbers uvs{ 0, 0, 0.5, 0, 1, 1 };
+  const auto uvsBy = [&uvs](const std::string& mapping, const FbxMaker::Integers& indices) {
+    return layerOf("LayerElementUV", mapping, "IndexToDirect", { { "UV", { uvs } }, { "UVIndex", { indices } } });
+  };
+  const auto cornerOf = [](const dgtk::Model& model, std::size_t triangle, std::size_t corner)
+  { return model.triangles[triangle][corner]; };
+
+  auto model = modelOf(layerOf("LayerElementNormal", "ByPolygonVertex", "Direct", { { "Normals", { ofCorners } } }),
+    uvsBy("ByPolygonVertex", { 0, 1, 2, 2, 1, 0 }));
+  EXPECT_EQ(model->rest->normals[cornerOf(*model, 0, 1)], Eigen::Vector3f(0, 1, 0));
+  EXPECT_EQ(model->rest->normals[cornerOf(*model, 1, 1)], Eigen::Vector3f(1, 0, 0));
+  EXPECT_EQ(model->uvs[cornerOf(*model, 0, 1)], Eigen::Vector2d(0.5, 0));
+  EXPECT_EQ(model->uvs[cornerOf(*model, 1, 0)], Eigen::Vector2d(1, 1));
+
+  model = modelOf(layerOf("LayerElementNormal", "ByVertice", "Direct", { { "Normals", { ofCorners } } }),
+    uvsBy("ByVertice", { 0, 1, 2, 1 }));
+  EXPECT_EQ(model->rest->normals[cornerOf(*model, 0, 2)], Eigen::Vector3f(0, 0, 1)) << "the third point's";
+  EXPECT_EQ(model->rest->normals[cornerOf(*model, 1, 1)], Eigen::Vector3f(0, 0, 1));
+  EXPECT_EQ(model->uvs[cornerOf(*model, 1, 2)], Eigen::Vector2d(0.5, 0));
+
+  model = modelOf(
+    layerOf("LayerElementNormal", "ByPolygon", "Direct", { { "Normals", { ofCorners } } }), uvsBy("AllSame", { 2 }));
+  EXPECT_EQ(model->rest->normals[cornerOf(*model, 1, 2)], Eigen::Vector3f(0, 1, 0));
+  EXPECT_EQ(model->uvs[cornerOf(*model, 1, 2)], Eigen::Vector2d(1, 1));
+
+  model = modelOf(layerOf("LayerElementNormal", "ByEdge", "Direct", { { "Normals", { ofCorners } } }),
+    uvsBy("ByPolygonVertex", { 0, 1, 7, -1 }));
+  EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, 1)) << "the triangle's own";
+  EXPECT_EQ(model->uvs[cornerOf(*model, 0, 2)], Eigen::Vector2d(0, 0)) << "an index that is none";
+}
+
+TEST(Fbx, SurfacesThatNameMissingPointsAreLeftOut)
+{
+  FbxMaker maker;
+  maker.mesh(maker.model(), { 0, 0, 0, 1, 0, 0, 0, 1, 0 }, { 0, 1, -3, 0, 1, -4, 0, -2, 0, 1, 2 });
+  const auto model = read(maker);
+  EXPECT_EQ(model->triangles.size(), 2u) << "the last polygon has no end";
+  EXPECT_EQ(model->lines, 1u);
+  EXPECT_THAT(model->warnings, ElementsAre("1 surfaces left out: a vertex that does not exist"));
+}
+
+TEST(Fbx, MaterialsByPolygon)
+{
+  FbxMaker maker;
+  const std::int64_t node = maker.model();
+  const std::int64_t mesh = maker.mesh(node, { 0, 0, 0, 1, 0, 0, 0, 1, 0 }, { 0, 1, -3, 0, 1, -3, 0, 1, -3, 0, 1, -3 });
+  maker.item(mesh).children.push_back(layerOf(
+    "LayerElementMaterial", "ByPolygon", "IndexToDirect", { { "Materials", { FbxMaker::Integers{ 1, 0, 1, 9 } } } }));
+  EXPECT_EQ(read(maker)->materials.size(), 1u) << "a grey one";
+  const std::int64_t red = maker.add("Material", "", {}, "red");
+  maker.set(red, "DiffuseColor", { 1, 0.5, 0 });
+  maker.set(red, "DiffuseFactor", Numbers{ 0.5 });
+  maker.set(red, "AmbientColor", { 0.5, 0.5, 0.5 });
+  maker.set(red, "EmissiveColor", { 0, 0.25, 0 });
+  maker.set(red, "SpecularColor", { 1, 1, 1 });
+  maker.set(red, "SpecularFactor", Numbers{ 0.25 });
+  maker.set(red, "ShininessExponent", Numbers{ 20 });
+  maker.set(red, "TransparentColor", { 1, 1, 1 });
+  maker.set(red, "TransparencyFactor", Numbers{ 0.25 });
+  maker.connect(red, node);
+  const std::int64_t plain = maker.add("Material", "", {}, "plain");
+  maker.set(plain, "Maya|baseColor", { 0.5, 0.25, 1 });
+  maker.set(plain, "Maya|base", Numbers{ 0.5 });
+  maker.set(plain, "SpecularColor", { 1, 1, 1 });
+  maker.set(plain, "TransparencyFactor", Numbers{ 1 });
+  maker.set(plain, "Opacity", Numbers{ 0.5 });
+  maker.connect(plain, node);
+  const auto model = read(maker);
+  ASSERT_EQ(model->parts.size(), 3u);
+  EXPECT_EQ(model->parts[0].triangles, 2u);
+  EXPECT_EQ(model->parts[2].material, model->parts[1].material) << "what names no material has the first";
+  const auto materialOf = [&model](std::size_t part) -> const dgtk::Material&
+  { return model->materials.at(std::size_t(model->parts[part].material)); };
+  EXPECT_EQ(materialOf(0).name, "plain");
+  expectNear(materialOf(0).diffuse, { 0.25, 0.125, 0.5 });
+  expectNear(materialOf(0).specular, { 0, 0, 0 });
+  EXPECT_EQ(materialOf(0).opacity, 0.5);
+  EXPECT_EQ(materialOf(1).name, "red");
+  expectNear(materialOf(1).diffuse, { 0.5, 0.25, 0 });
+  expectNear(materialOf(1).ambient, { 0.5, 0.5, 0.5 });
+  expectNear(materialOf(1).emission, { 0, 0.25, 0 });
+  expectNear(materialOf(1).specular, { 0.25, 0.25, 0.25 });
+  EXPECT_EQ(materialOf(1).shininess, 20);
+  EXPECT_EQ(materialOf(1).opacity, 0.75);
+}
+
+namespace
+{
+/// A triangle with a picture.
+class FbxPictures : public testing::Test
+{
+protected:
+  FbxPictures()
+  {
+    const std::int64_t node = this->Maker.model();
+    const std::int64_t mesh = this->Maker.mesh(node);
+    const auto set = [this, mesh](const std::string& name, const Numbers& uvs)
+    {
+      this->Maker.item(mesh).children.push_back(
+        layerOf("LayerElementUV", "ByPolygonVertex", "Direct", { { "Name", { name } }, { "UV", { uvs } } }));
+    };
+    set("first", { 0.25, 0.5, 0, 0, 1, 1 });
+    set("second", { 0.75, 0.125, 0, 0, 1, 1 });
+    this->Material = this->Maker.add("Material", "");
+    this->Maker.connect(this->Material, node);
+    this->Texture = this->Maker.add("Texture", "");
+    this->Maker.item(this->Texture).children = { { "FileName", { std::string("C:\\far\\away.png") } },
+      { "RelativeFilename", { std::string("maps\\own.png") } } };
+  }
+  void use(const std::string& property = "DiffuseColor")
+  {
+    this->Maker.connect(this->Texture, this->Material, property);
+  }
+
+  FbxMaker Maker;
+  std::int64_t Material;
+  std::int64_t Texture;
+};
+} // namespace
+
+TEST_F(FbxPictures, AreNamedByTheTexture)
+{
+  this->use();
+  const auto model = read(this->Maker);
+  ASSERT_EQ(model->textures.size(), 1u);
+  EXPECT_EQ(model->textures[0].name, "maps\\own.png");
+  EXPECT_EQ(model->textures[0].wrap, (dgtk::TextureWraps{}));
+  EXPECT_EQ(model->uvs[model->triangles[0][0]], Eigen::Vector2d(0.25, 0.5));
+}
+
+TEST_F(FbxPictures, LieWhereTheTextureSays)
+{
+  this->use();
+  this->Maker.setText(this->Texture, "UVSet", "second");
+  this->Maker.set(this->Texture, "WrapModeU", Numbers{ 1 });
+  EXPECT_EQ(read(this->Maker)->textures[0].wrap[0], dgtk::TextureWrap::Clamp);
+  EXPECT_EQ(read(this->Maker)->textures[0].wrap[1], dgtk::TextureWrap::Repeat);
+  EXPECT_EQ(read(this->Maker)->uvs[0], Eigen::Vector2d(0.75, 0.125));
+  this->Maker.set(this->Texture, "Translation", { 0.25, 0.5, 0 });
+  this->Maker.set(this->Texture, "Scaling", { 2, 4, 1 });
+  this->Maker.set(this->Texture, "Rotation", { 0, 0, 90 });
+  // (u, v) = shift * turn * scale * picture
+  const Eigen::Vector2d turned(0.125 - 0.5, -(0.75 - 0.25));
+  const Eigen::Vector2d found = read(this->Maker)->uvs[0];
+  EXPECT_NEAR(found.x(), turned.x() / 2, 1e-7);
+  EXPECT_NEAR(found.y(), turned.y() / 4, 1e-7);
+}
+
+TEST_F(FbxPictures, OfOtherMaterialsAndLayers)
+{
+  this->use("Maya|baseColor");
+  EXPECT_EQ(read(this->Maker)->textures.size(), 1u);
+  FbxMaker& maker = this->Maker;
+  const std::int64_t layered = maker.add("LayeredTexture", "");
+  maker.connect(layered, this->Material, "DiffuseColor");
+  const std::int64_t other = maker.add("Texture", "", { { "FileName", { std::string("under.png") } } });
+  maker.connect(other, layered);
+  const auto model = read(maker);
+  EXPECT_EQ(model->textures.at(0).name, "under.png") << "the first one of a layered texture, and its colour first";
+}
+
+TEST_F(FbxPictures, InsideTheFile)
+{
+  this->use();
+  std::string png = "\x89PNG\r\n\x1a\n";
+  const std::int64_t video =
+    this->Maker.add("Video", "Clip", { { "RelativeFilename", { std::string("own.png") } }, { "Content", { png } } });
+  this->Maker.connect(video, this->Texture);
+  const auto model = readBytes("fbx", this->Maker.binary());
+  ASSERT_EQ(model->textures.size(), 1u);
+  EXPECT_TRUE(model->holds(model->textures[0]));
+  EXPECT_EQ(model->textures[0].name, "own.png");
+  this->Maker.item(video).children[1].values = { std::string("iVBORw0K"), std::string("Ggo=") }; // the same in base64
+  const auto text = read(this->Maker);
+  EXPECT_TRUE(text->holds(text->textures.at(0)));
+}
+
+TEST(Fbx, Fuzz)
+{
+  FbxMaker maker;
+  const std::int64_t node = maker.model();
+  const std::int64_t mesh = maker.mesh(node, { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, { 0, 1, 2, -4 });
+  maker.item(mesh).children.push_back(layerOf("LayerElementUV", "ByPolygonVertex", "IndexToDirect",
+    { { "UV", { Numbers{ 0, 0, 1, 1 } } }, { "UVIndex", { FbxMaker::Integers{ 0, 1, 0, 1 } } } }));
+  const std::int64_t bone = maker.model(0, "bone");
+  const std::int64_t skin = maker.add("Deformer", "Skin",
+    { { "SkinningType", { std::string("Blend") } }, { "Indexes", { FbxMaker::Integers{ 0, 1 } } },
+      { "BlendWeights", { Numbers{ 0.5, 1 } } } });
+  maker.connect(skin, mesh);
+  const std::int64_t cluster = maker.add("Deformer", "Cluster",
+    { { "Indexes", { FbxMaker::Integers{ 0, 1, 2 } } }, { "Weights", { Numbers{ 1, 0.5, 0.25 } } },
+      { "Transform", { Numbers{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } } } });
+  maker.connect(cluster, skin);
+  maker.connect(bone, cluster);
+  const std::int64_t shapes = maker.add("Deformer", "BlendShape");
+  maker.connect(shapes, mesh);
+  const std::int64_t channel = maker.add("Deformer", "BlendShapeChannel", { { "FullWeights", { Numbers{ 100 } } } });
+  maker.connect(channel, shapes);
+  const std::int64_t shape = maker.add(
+    "Geometry", "Shape", { { "Indexes", { FbxMaker::Integers{ 1 } } }, { "Vertices", { Numbers{ 0, 0, 1 } } } });
+  maker.connect(shape, channel);
+  const std::int64_t layer = maker.stack(1);
+  maker.animate(layer, bone, "Lcl Rotation", "d|Z", { { 0, 0, 8 | 0x3000400, { 1, 2 } }, { 0.5, 90 }, { 1, 45 } });
+  maker.animate(layer, channel, "DeformPercent", "d|DeformPercent", { { 0, 0 }, { 1, 100 } });
+  const std::string text = maker.text();
+  fuzzReader("fbx", { text, maker.binary(), maker.binary({ false, false, false, false }) }, 1200, false);
+}
