@@ -390,11 +390,20 @@ TEST_F(FbxPictures, LieWhereTheTextureSays)
   this->Maker.set(this->Texture, "Translation", { 0.25, 0.5, 0 });
   this->Maker.set(this->Texture, "Scaling", { 2, 4, 1 });
   this->Maker.set(this->Texture, "Rotation", { 0, 0, 90 });
-  // (u, v) = shift * turn * scale * picture
-  const Eigen::Vector2d turned(0.125 - 0.5, -(0.75 - 0.25));
-  const Eigen::Vector2d found = read(this->Maker)->uvs[0];
-  EXPECT_NEAR(found.x(), turned.x() / 2, 1e-7);
-  EXPECT_NEAR(found.y(), turned.y() / 4, 1e-7);
+  const auto expectLying = [this](const Eigen::Vector2d& scalePivot, const Eigen::Vector2d& turnPivot)
+  {
+    Eigen::Affine2d uv_from_picture = Eigen::Affine2d(Eigen::Translation2d(0.25, 0.5)) *
+                                      Eigen::Translation2d(turnPivot) * Eigen::Rotation2Dd(90 * degree) *
+                                      Eigen::Translation2d(-turnPivot);
+    uv_from_picture =
+      uv_from_picture * Eigen::Translation2d(scalePivot) * Eigen::Scaling(2., 4.) * Eigen::Translation2d(-scalePivot);
+    const Eigen::Vector2d expected = uv_from_picture.inverse() * Eigen::Vector2d(0.75, 0.125);
+    EXPECT_LT((read(this->Maker)->uvs[0] - expected).norm(), 1e-6);
+  };
+  expectLying({ 0, 0 }, { 0, 0 });
+  this->Maker.set(this->Texture, "TextureScalingPivot", { 0.5, 0.25, 0 });
+  this->Maker.set(this->Texture, "TextureRotationPivot", { 0.125, 1, 0 });
+  expectLying({ 0.5, 0.25 }, { 0.125, 1 });
 }
 
 TEST_F(FbxPictures, OfOtherMaterialsAndLayers)

@@ -124,8 +124,10 @@ TEST(FbxMotion, AutomaticTangents)
   between(0x1000 | timeIndependent, { { 0, 0 }, { 1, 2 }, { 3, 2 } }, 0, 2); // clamped: as high as a neighbour
   between(0x1000 | timeIndependent, keys, 1, 2);
   between(0x1000 | timeIndependent, { { 0, 2 }, { 1, 2 }, { 3, 5 } }, 0, 0);
-  between(0x4000 | timeIndependent, { { 0, 0 }, { 1, 3 }, { 2, 3.1 } }, 0.3, 0); // not above the next one
-  between(0x4000 | timeIndependent, { { 0, 0 }, { 1, 3 }, { 2, 1 } }, 0, 0);     // a top stays one
+  between(0x4000 | timeIndependent, { { 0, 0 }, { 1, 3 }, { 2, 3.1 } }, 0.3, 0);  // not above the next one
+  between(0x4000 | timeIndependent, { { 0, 0 }, { 1, 3 }, { 2, 1 } }, 0, 0);      // a top stays one
+  between(0x4000 | timeIndependent, { { 0, 3.1 }, { 1, 3 }, { 2, 0 } }, -0.3, 0); // nor below the one before
+  between(0x4000 | timeIndependent, { { 0, 3 }, { 1, 1 }, { 2, 9 } }, 0, 0);      // a valley
   // biases stand in the slopes' places, in per cent: towards the next or the previous key
   between(0, { { 0, 0, 0, { 0, -50 } }, { 1, 2, 0, { 50, 0 } }, { 3, 3 } }, (1.25 + 0.5) / 2, 2);
   between(0, { { 0, 0, 0, { 0, 50 } }, { 1, 2, 0, { -50, 0 } }, { 3, 3 } }, (1.25 + 2) / 2, 2);
@@ -325,6 +327,7 @@ TEST_F(FbxShapes, HaveOthersBetween)
   const auto model = readBytes("fbx", this->Maker.text());
   const auto at = [&model](double percent) { return pointsAt(*model, percent / 100 + 1); };
   expectAt(at(0), 0, { 0, 0, 0 });
+  expectAt(at(0.5), 0, { 0.01, 0, 0.01 });
   expectAt(at(25), 0, { 0.5, 0, 0.5 });
   expectAt(at(50), 0, { 1, 0, 1 });
   expectAt(at(75), 0, { 0.5, 0, 2.5 });
