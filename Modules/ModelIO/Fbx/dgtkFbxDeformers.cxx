@@ -130,6 +130,7 @@ Blend& FbxDeformers::addBlend(
   Blend blend;
   blend.number = targets.blends.try_emplace({ object, property }, std::int32_t(targets.blends.size())).first->second;
   blend.percent = scene.object(object).number(property, percent);
+  blend.percent = std::isfinite(blend.percent) ? blend.percent : 0;
   return this->Blends.emplace_back(std::move(blend));
 }
 
@@ -158,6 +159,8 @@ void FbxDeformers::readChannel(const FbxScene& scene, std::size_t channel, FbxTa
     this->Shapes.push_back(std::move(shape));
   }
   full.resize(shapes.size(), 100);
+  std::replace_if(
+    full.begin(), full.end(), [](double percentage) { return !std::isfinite(percentage); }, 100.0);
   std::vector<std::size_t> order(shapes.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(), [&full](std::size_t a, std::size_t b) { return full[a] < full[b]; });

@@ -19,7 +19,6 @@ namespace
 constexpr std::int64_t oldestVersion = 7000;
 constexpr std::uint64_t memoryBase = std::uint64_t(64) << 20;
 constexpr std::uint64_t memoryPerByte = 8;
-constexpr int deepestModel = 2000;
 
 Joint jointOf(const FbxObject& model)
 {
@@ -62,7 +61,7 @@ public:
   {
     this->To.nodes.emplace_back().name = "RootNode";
     this->To.nodes.back().parent_from_node = Transform().matrix();
-    this->addModels(0, 0, 0);
+    this->addModels();
     for (std::size_t i = 0; i < this->File.objects().size(); ++i)
     {
       if (this->Targets.nodes[i] != noIndex)
@@ -83,27 +82,32 @@ public:
   }
 
 private:
-  void addModels(std::size_t parent, std::int32_t node, int depth)
+  void addModels()
   {
-    if (depth > deepestModel)
+    std::vector<std::pair<std::size_t, std::int32_t>> open; // models, and the nodes above them
+    const auto push = [&](std::size_t parent, std::int32_t node)
     {
-      throw std::runtime_error("has too many nodes or nests them too deeply");
-    }
-    for (const std::size_t child : this->File.childrenOf(parent, "Model"))
+      const std::vector<std::size_t> children = this->File.childrenOf(parent, "Model");
+      std::for_each(children.rbegin(), children.rend(), [&](std::size_t child) { open.emplace_back(child, node); });
+    };
+    push(0, 0);
+    while (!open.empty())
     {
-      std::int32_t& own = this->Targets.nodes[child];
+      const auto [index, above] = open.back();
+      open.pop_back();
+      std::int32_t& own = this->Targets.nodes[index];
       if (own != noIndex)
       {
         continue; // a model has one place
       }
       own = static_cast<std::int32_t>(this->To.nodes.size());
-      const FbxObject& model = this->File.object(child);
+      const FbxObject& model = this->File.object(index);
       Node& made = this->To.nodes.emplace_back();
       made.name = model.name;
-      made.parent = node;
+      made.parent = above;
       made.parent_from_node = Transform().matrix();
       made.joint.push_back(jointOf(model));
-      this->addModels(child, own, depth + 1);
+      push(index, own);
     }
   }
 

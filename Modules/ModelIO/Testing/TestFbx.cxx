@@ -435,6 +435,21 @@ TEST_F(FbxPictures, InsideTheFile)
   EXPECT_TRUE(text->holds(text->textures.at(0)));
 }
 
+TEST(Fbx, NodesMayBeNestedDeeplyAndInRings)
+{
+  FbxMaker maker;
+  std::int64_t node = maker.model();
+  const std::int64_t first = node;
+  for (int i = 0; i < 5000; ++i)
+  {
+    node = maker.model(node);
+    maker.set(node, "Lcl Translation", { 1, 0, 0 });
+  }
+  maker.mesh(node);
+  maker.connect(first, node);
+  expectPlaced(*read(maker), shift(5000, 0, 0));
+}
+
 TEST(Fbx, Fuzz)
 {
   FbxMaker maker;
