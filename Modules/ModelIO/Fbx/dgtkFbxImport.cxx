@@ -72,8 +72,9 @@ public:
     this->To.animations = readFbxAnimations(this->File, this->Targets);
     if (this->BadPolygons > 0)
     {
-      this->To.warnings.push_back(
-        std::to_string(this->BadPolygons) + " surfaces left out: a vertex that does not exist");
+      this->To.warnings.push_back(std::to_string(this->BadPolygons) +
+                                  (this->BadPolygons == 1 ? " surface" : " surfaces") +
+                                  " left out: a vertex that does not exist");
     }
     if (this->HasColors)
     {

@@ -287,7 +287,7 @@ TEST(Fbx, SurfacesThatNameMissingPointsAreLeftOut)
   const auto model = read(maker);
   EXPECT_EQ(model->triangles.size(), 2u) << "the last polygon has no end";
   EXPECT_EQ(model->lines, 1u);
-  EXPECT_THAT(model->warnings, ElementsAre("1 surfaces left out: a vertex that does not exist"));
+  EXPECT_THAT(model->warnings, ElementsAre("1 surface left out: a vertex that does not exist"));
 }
 
 TEST(Fbx, MaterialsByPolygon)

@@ -345,6 +345,14 @@ TEST_F(FbxShapes, GoTheOtherWayWhereNothingIsThere)
   EXPECT_EQ(this->first().z(), -0.5);
 }
 
+TEST_F(FbxShapes, PercentagesThatAreNoNumbersAreWhole)
+{
+  const std::int64_t channel = this->channel({ std::nan("") });
+  this->shape(channel, 0, 1);
+  this->Maker.set(channel, "DeformPercent", Numbers{ 50 });
+  EXPECT_EQ(this->first().z(), 0.5);
+}
+
 TEST_F(FbxShapes, OfBlenderHaveSharesOfTheirVertices)
 {
   const std::int64_t channel = this->channel({ 50, 100 });
