@@ -20,6 +20,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+/// Of programs that count what is covered (gcc): what _exit() would lose.
+extern "C" void __gcov_dump() __attribute__((weak));
+
 namespace
 {
 using Main = int (*)(int, char**, char**);
@@ -62,6 +65,10 @@ bool transferAll(Transfer transfer, int file, Bytes* bytes, std::size_t size)
   const int status = mainOfProgram(static_cast<int>(arguments.size()) - 1, arguments.data(), environment);
   std::cout.flush();
   std::fflush(nullptr);
+  if (__gcov_dump != nullptr)
+  {
+    __gcov_dump();
+  }
   _exit(status); // destructors of all libraries would copy their pages
 }
 

@@ -151,9 +151,10 @@ void check(const import::Animation& animation, std::size_t nodes)
     require(channel.node >= 0 && known(channel.node), "an animation moves a node that does not exist");
     check(channel.layers, curves);
   }
-  for (const import::BlendChannel& channel : animation.blends)
+  for (std::size_t i = 0; i < animation.blends.size(); ++i)
   {
-    check(channel.layers, curves);
+    require(i == 0 || animation.blends[i - 1].number < animation.blends[i].number, "blend shapes are not in order");
+    check(animation.blends[i].layers, curves);
   }
 }
 } // namespace

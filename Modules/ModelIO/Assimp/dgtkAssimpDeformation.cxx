@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace dgtk
 {
@@ -105,7 +106,7 @@ Eigen::Quaterniond rotationAt(const import::Keys<4>& keys, double time)
     return quaternion(blend(keys, at));
   }
   const auto key = [&keys](std::size_t i) { return quaternion(Eigen::Vector4d(keys.values[i].data())); };
-  return between(key(at.key), key(at.key + 1), at.fraction);
+  return slerp(key(at.key), key(at.key + 1), at.fraction);
 }
 
 /// The node's own transform where an animation gives some of translation, rotation, scale: what it does not give is
@@ -392,16 +393,15 @@ bool AssimpDeformation::moves() const
   }
   const auto isDrawn = [&drawn](const auto& channel)
   { return channel.node >= 0 && drawn[static_cast<std::size_t>(channel.node)] != 0; };
-  const auto isUsed = [this](const import::BlendChannel& channel)
+  std::set<std::int32_t> used;
+  for (const PosedMesh& posed : this->Meshes)
   {
-    const auto has = [&channel](const import::Blend& blend) { return blend.number == channel.number; };
-    return std::any_of(this->Meshes.begin(), this->Meshes.end(),
-      [&](const PosedMesh& posed)
-      {
-        const std::vector<import::Blend>& blends = this->Scene->meshes[posed.mesh].blends;
-        return std::any_of(blends.begin(), blends.end(), has);
-      });
-  };
+    for (const import::Blend& blend : this->Scene->meshes[posed.mesh].blends)
+    {
+      used.insert(blend.number);
+    }
+  }
+  const auto isUsed = [&used](const import::BlendChannel& channel) { return used.count(channel.number) > 0; };
   return std::any_of(this->Scene->animations.begin(), this->Scene->animations.end(),
     [&](const import::Animation& animation)
     {

@@ -22,8 +22,9 @@ struct PosedMesh
 };
 
 /// Node transforms, morph targets and linear blend skinning (glTF 2.0, 3.7.2.2 and 3.7.3.2), in double precision, at
-/// any time. Between keys, translation, scale and weights are linear and rotations slerp along the shorter arc; before
-/// the first and after the last key the value stays.
+/// any time. Keys of channels: translation, scale and weights are linear between them, step or follow splines,
+/// rotations slerp along the shorter arc; before the first and after the last one the value stays. Joints of FBX files
+/// follow their curves (dgtkJointMotion.h).
 class AssimpDeformation : public Deformation
 {
 public:

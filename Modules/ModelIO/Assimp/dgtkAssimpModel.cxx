@@ -44,7 +44,8 @@ std::vector<std::uint32_t> weld(const import::Mesh& mesh)
   {
     const auto alike = [a, b](const import::Target& target) { return target.positions[a] == target.positions[b]; };
     return mesh.positions[a] == mesh.positions[b] && std::all_of(mesh.targets.begin(), mesh.targets.end(), alike) &&
-           (influences.empty() || influences[a] == influences[b]);
+           (influences.empty() || influences[a] == influences[b]) &&
+           (mesh.dualQuaternions.empty() || mesh.dualQuaternions[a] == mesh.dualQuaternions[b]);
   };
   EqualItems known(mesh.positions.size());
   std::vector<std::uint32_t> first(mesh.positions.size());

@@ -10,7 +10,7 @@
 namespace dgtk
 {
 
-/// Reads a model with Assimp, in a process of its own. `format` is the reader's. Throws InputError.
+/// Reads a model in dgtk-import, with Assimp or our own reader of FBX. `format` is the reader's. Throws InputError.
 ModelContents readThroughAssimp(const std::string& path, const std::string& format, const ReadOptions& options);
 
 } // namespace dgtk

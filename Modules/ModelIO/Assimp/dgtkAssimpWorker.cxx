@@ -267,7 +267,7 @@ void read(const std::string& path, const std::string& format, Scene& scene)
     scene.bytesRead = own.Bytes;
     if (!refuseLongNumber(own, scene))
     {
-      dgtk::import::readFbx(file ? bytesOf(*file) : std::string(), scene);
+      dgtk::import::readFbx(file ? bytesOf(*file) : throw std::runtime_error("cannot be opened"), scene);
     }
     return;
   }

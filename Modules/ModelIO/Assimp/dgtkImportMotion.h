@@ -20,7 +20,7 @@ enum class Segment : std::int32_t
 };
 
 /// What a curve does before its first or after its last key.
-enum class Beyond : std::int32_t
+enum class Extrapolation : std::int32_t
 {
   Constant,
   Slope,         ///< goes on as it began or ended
@@ -37,9 +37,9 @@ struct Curve
   /// Of Bezier segments, one a key: time and value of the first control point from the key, and to the next key from
   /// the second one.
   std::vector<std::array<double, 4>> handles;
-  std::array<Beyond, 2> beyond{};                ///< before, after
+  std::array<Extrapolation, 2> extrapolation{};  ///< before, after
   std::array<std::int32_t, 2> repeats{ -1, -1 }; ///< how often; -1: for ever
-  std::array<double, 2> slopes{};                ///< of Beyond::Slope, a second
+  std::array<double, 2> slopes{};                ///< of Extrapolation::Slope, a second
 };
 
 /// How a layer of an animation changes what those below it say.
@@ -114,7 +114,7 @@ struct BlendChannel
 template <class A>
 void io(A& a, Curve& c)
 {
-  a(c.times), a(c.values), a(c.segments), a(c.handles), a(c.beyond), a(c.repeats), a(c.slopes);
+  a(c.times), a(c.values), a(c.segments), a(c.handles), a(c.extrapolation), a(c.repeats), a(c.slopes);
 }
 template <class A>
 void io(A& a, Layer& l)

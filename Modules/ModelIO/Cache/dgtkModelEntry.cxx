@@ -287,6 +287,11 @@ bool hasMaterials(const ModelContents& contents)
   const auto pictures = static_cast<int>(contents.pictures.size());
   const auto known = [pictures](int index) { return index >= -1 && index < pictures; };
   bool good = contents.alpha.size() == contents.model->materials.size();
+  for (const MaterialAlpha& alpha : contents.alpha)
+  {
+    good = good && known(alpha.mask) && alpha.use >= AlphaUse{} && alpha.use <= AlphaUse::Nothing &&
+           alpha.value >= MaskValue{} && alpha.value <= MaskValue::Usual;
+  }
   for (const Material& m : contents.model->materials)
   {
     for (const auto texture : materialTextures)

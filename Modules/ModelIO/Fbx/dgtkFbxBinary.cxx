@@ -37,7 +37,7 @@ public:
         failFbxBinary("ends before its last element");
       }
       FbxElement element;
-      if (!this->element(element, 0))
+      if (!this->element(element, 0, this->Bytes.size()))
       {
         return all;
       }
@@ -77,7 +77,7 @@ private:
   }
 
   /// False for the empty one that ends a list.
-  bool element(FbxElement& to, int depth)
+  bool element(FbxElement& to, int depth, std::uint64_t limit)
   {
     const std::size_t begin = this->At;
     const std::uint64_t end = this->word();
@@ -88,7 +88,7 @@ private:
     {
       return false;
     }
-    if (end < this->At || end > this->Bytes.size() || valueBytes > end - this->At || depth > deepestFbxElement)
+    if (end < this->At || end > limit || valueBytes > end - this->At || depth > deepestFbxElement)
     {
       failFbxBinary("has an element that does not fit its place, at byte " + std::to_string(begin));
     }
@@ -104,7 +104,7 @@ private:
     while (this->At < end)
     {
       FbxElement child;
-      if (!this->element(child, depth + 1))
+      if (!this->element(child, depth + 1, end))
       {
         break;
       }
@@ -164,15 +164,15 @@ private:
     const std::uint32_t encoding = this->take<std::uint32_t>();
     const std::string_view packed = this->block(this->take<std::uint32_t>());
     const std::uint64_t bytes = std::uint64_t(count) * sizeof(Stored);
-    this->Memory.take(std::uint64_t(count) * (sizeof(Stored) + sizeof(Kept)));
+    this->Memory.take(std::uint64_t(count) * sizeof(Kept));
     std::string unpacked;
     if (encoding == 1)
     {
       unpacked.resize(bytes);
       const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> zlib(
         libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-      if (libdeflate_zlib_decompress(zlib.get(), packed.data(), packed.size(), unpacked.data(), bytes, nullptr) !=
-          LIBDEFLATE_SUCCESS)
+      if (!zlib || libdeflate_zlib_decompress(
+                     zlib.get(), packed.data(), packed.size(), unpacked.data(), bytes, nullptr) != LIBDEFLATE_SUCCESS)
       {
         failFbxBinary("has a list that cannot be decompressed, before byte " + std::to_string(this->At));
       }

@@ -38,44 +38,33 @@ struct Key
 };
 
 /// Numbers of KeyAttrDataFloat, which text files give as the bits of floats.
-std::vector<float> attributes(const FbxElement* element)
+std::vector<float> attributes(const FbxElement& curve)
 {
   std::vector<float> floats;
-  if (element != nullptr && !element->values.empty() &&
-      std::holds_alternative<std::vector<std::int64_t>>(element->values[0]))
+  const FbxElement* element = curve.find("KeyAttrDataFloat");
+  const bool isBits = element != nullptr && !element->values.empty() &&
+                      std::holds_alternative<std::vector<std::int64_t>>(element->values[0]);
+  for (const std::int64_t whole : isBits ? curve.integers("KeyAttrDataFloat") : std::vector<std::int64_t>())
   {
-    for (const std::int64_t whole : std::get<std::vector<std::int64_t>>(element->values[0]))
-    {
-      const auto bits = static_cast<std::uint32_t>(whole);
-      float value = 0;
-      std::memcpy(&value, &bits, sizeof value);
-      floats.push_back(value);
-    }
+    const auto bits = static_cast<std::uint32_t>(whole);
+    float value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    floats.push_back(value);
   }
-  else if (element != nullptr)
+  for (const double value : isBits ? std::vector<double>() : curve.numbers("KeyAttrDataFloat"))
   {
-    for (const double value : element->numbers())
-    {
-      floats.push_back(static_cast<float>(value));
-    }
+    floats.push_back(static_cast<float>(value));
   }
   return floats;
 }
 
-std::vector<std::int64_t> integersOf(const FbxElement& element, const char* name)
-{
-  const FbxElement* list = element.find(name);
-  return list != nullptr ? list->integers() : std::vector<std::int64_t>();
-}
-
 std::vector<Key> readKeys(const FbxElement& element, double begin, double ticks)
 {
-  const std::vector<std::int64_t> times = integersOf(element, "KeyTime");
-  const FbxElement* valueList = element.find("KeyValueFloat");
-  const std::vector<double> values = valueList != nullptr ? valueList->numbers() : std::vector<double>();
-  const std::vector<std::int64_t> flags = integersOf(element, "KeyAttrFlags");
-  const std::vector<float> data = attributes(element.find("KeyAttrDataFloat"));
-  const std::vector<std::int64_t> counts = integersOf(element, "KeyAttrRefCount");
+  const std::vector<std::int64_t> times = element.integers("KeyTime");
+  const std::vector<double> values = element.numbers("KeyValueFloat");
+  const std::vector<std::int64_t> flags = element.integers("KeyAttrFlags");
+  const std::vector<float> data = attributes(element);
+  const std::vector<std::int64_t> counts = element.integers("KeyAttrRefCount");
   std::vector<Key> keys;
   std::size_t attribute = 0;
   std::int64_t left = counts.empty() ? 0 : counts[0];
@@ -85,7 +74,7 @@ std::vector<Key> readKeys(const FbxElement& element, double begin, double ticks)
     {
       left = counts[++attribute];
     }
-    --left;
+    left -= left > 0 ? 1 : 0;
     Key key;
     key.time = (double(times[i]) - begin) / ticks;
     key.value = values[i];
@@ -260,16 +249,16 @@ void readBeyond(const FbxElement& element, const char* name, std::size_t side, C
   switch (type->text(0).empty() ? type->integer(0, 'C') : type->text(0)[0])
   {
     case 'A':
-      to.beyond[side] = Beyond::RepeatRelative;
+      to.extrapolation[side] = Extrapolation::RepeatRelative;
       break;
     case 'K':
-      to.beyond[side] = Beyond::Slope;
+      to.extrapolation[side] = Extrapolation::Slope;
       break;
     case 'M':
-      to.beyond[side] = Beyond::Mirror;
+      to.extrapolation[side] = Extrapolation::Mirror;
       break;
     case 'R':
-      to.beyond[side] = Beyond::Repeat;
+      to.extrapolation[side] = Extrapolation::Repeat;
       break;
     default:
       break;

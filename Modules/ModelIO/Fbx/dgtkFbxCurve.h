@@ -8,8 +8,8 @@
 namespace dgtk::import
 {
 
-/// An AnimationCurve, its times in seconds after `begin`, both of `ticks` a second. No keys where its lists do not
-/// match.
+/// An AnimationCurve, whose times are `ticks` a second: its keys at seconds after the time `begin`, as many as have
+/// both a time and a value.
 Curve readFbxCurve(const FbxElement& element, double begin, double ticks);
 
 } // namespace dgtk::import

@@ -10,22 +10,10 @@ namespace dgtk::import
 
 namespace
 {
-std::vector<double> numbersOf(const FbxElement& element, const char* name)
-{
-  const FbxElement* list = element.find(name);
-  return list != nullptr ? list->numbers() : std::vector<double>();
-}
-
-std::vector<std::int64_t> integersIn(const FbxElement& element, const char* name)
-{
-  const FbxElement* list = element.find(name);
-  return list != nullptr ? list->integers() : std::vector<std::int64_t>();
-}
-
 /// The file has matrices column by column.
 std::optional<Transform> transformOf(const FbxElement& element, const char* name)
 {
-  const std::vector<double> m = numbersOf(element, name);
+  const std::vector<double> m = element.numbers(name);
   if (m.size() < 16 || !std::all_of(m.begin(), m.end(), [](double x) { return std::isfinite(x); }))
   {
     return std::nullopt;
@@ -33,31 +21,50 @@ std::optional<Transform> transformOf(const FbxElement& element, const char* name
   return Transform({ m[0], m[4], m[8], m[12], m[1], m[5], m[9], m[13], m[2], m[6], m[10], m[14], 0, 0, 0, 1 });
 }
 
-/// Calls with the vertex and the index of its control point in `points`.
-template <class Call>
-void forVerticesOf(const FbxPart& part, std::size_t controlPoints, const std::vector<std::int64_t>& points, Call call)
+/// The vertices of a part that are at each control point: [First[i], First[i + 1]) of List.
+class PlacesOf
 {
-  std::vector<std::vector<std::uint32_t>> places(controlPoints);
-  for (std::size_t i = 0; i < points.size(); ++i)
+public:
+  PlacesOf(const FbxPart& part, std::size_t controlPoints)
+    : First(controlPoints + 1, 0)
+    , List(part.controlPoints.size())
   {
-    if (points[i] >= 0 && points[i] < static_cast<std::int64_t>(controlPoints))
+    for (const std::uint32_t point : part.controlPoints)
     {
-      places[static_cast<std::size_t>(points[i])].push_back(static_cast<std::uint32_t>(i));
+      ++this->First[point + 1];
+    }
+    std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
+    std::vector<std::uint32_t> next = this->First;
+    for (std::uint32_t v = 0; v < part.controlPoints.size(); ++v)
+    {
+      this->List[next[part.controlPoints[v]]++] = v;
     }
   }
-  for (std::uint32_t v = 0; v < part.controlPoints.size(); ++v)
+
+  /// Calls with each vertex at one of `points` and the index of that one among them.
+  template <class Call>
+  void visit(const std::vector<std::int64_t>& points, Call call) const
   {
-    for (const std::uint32_t place : places[part.controlPoints[v]])
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-      call(v, place);
+      if (points[i] >= 0 && points[i] + 1 < static_cast<std::int64_t>(this->First.size()))
+      {
+        const auto point = static_cast<std::size_t>(points[i]);
+        std::for_each(this->List.begin() + this->First[point], this->List.begin() + this->First[point + 1],
+          [&](std::uint32_t vertex) { call(vertex, i); });
+      }
     }
   }
-}
+
+private:
+  std::vector<std::uint32_t> First;
+  std::vector<std::uint32_t> List;
+};
 } // namespace
 
 FbxDeformers::Shape FbxDeformers::shapeOf(const FbxElement& element)
 {
-  Shape shape{ integersIn(element, "Indexes"), numbersOf(element, "Vertices") };
+  Shape shape{ element.integers("Indexes"), element.numbers("Vertices") };
   shape.offsets.resize(3 * shape.points.size());
   return shape;
 }
@@ -101,8 +108,8 @@ void FbxDeformers::readSkin(
   this->IsDual = kind == "DualQuaternion";
   if (kind == "Blend")
   {
-    this->DualPoints = integersIn(element, "Indexes");
-    this->DualShares = numbersOf(element, "BlendWeights");
+    this->DualPoints = element.integers("Indexes");
+    this->DualShares = element.numbers("BlendWeights");
     this->DualShares.resize(this->DualPoints.size());
   }
   for (const std::size_t index : scene.childrenOf(skin, "Deformer"))
@@ -112,8 +119,8 @@ void FbxDeformers::readSkin(
     const std::vector<std::size_t> bones = scene.childrenOf(index, "Model");
     cluster.node = bones.empty() ? noIndex : targets.nodes[bones.front()];
     cluster.bone_from_mesh = (transformOf(from, "Transform").value_or(Transform()) * node_from_geometry).matrix();
-    cluster.points = integersIn(from, "Indexes");
-    cluster.weights = numbersOf(from, "Weights");
+    cluster.points = from.integers("Indexes");
+    cluster.weights = from.numbers("Weights");
     cluster.weights.resize(cluster.points.size());
     const bool isFinite =
       std::all_of(cluster.weights.begin(), cluster.weights.end(), [](double w) { return std::isfinite(w); });
@@ -137,16 +144,16 @@ Blend& FbxDeformers::addBlend(
 void FbxDeformers::readChannel(const FbxScene& scene, std::size_t channel, FbxTargets& targets)
 {
   const FbxElement& element = *scene.object(channel).element;
-  std::vector<double> full = numbersOf(element, "FullWeights");
+  std::vector<double> full = element.numbers("FullWeights");
   const FbxElement* percent = element.find("DeformPercent");
   Blend& blend =
     this->addBlend(scene, channel, "DeformPercent", percent != nullptr ? percent->number(0, 0) : 0, targets);
   std::vector<std::size_t> shapes;
-  for (const std::size_t geometry : scene.childrenOf(channel, "Geometry"))
+  const std::vector<std::size_t> geometries = scene.childrenOf(channel, "Geometry");
+  for (const std::size_t geometry : geometries)
   {
     Shape shape = shapeOf(*scene.object(geometry).element);
-    const std::size_t place = shapes.size();
-    if (full.size() == shape.points.size() && full.size() > 1 && place == 0)
+    if (full.size() == shape.points.size() && full.size() > 1 && geometries.size() == 1)
     {
       // Blender writes the vertices' own shares here
       for (std::size_t i = 0; i < shape.offsets.size(); ++i)
@@ -173,32 +180,35 @@ void FbxDeformers::readChannel(const FbxScene& scene, std::size_t channel, FbxTa
 
 void FbxDeformers::addTo(const FbxPart& part, std::size_t controlPoints, Mesh& mesh) const
 {
+  const PlacesOf places(part, controlPoints);
   for (const Cluster& cluster : this->Clusters)
   {
     Bone bone;
     bone.node = cluster.node;
     bone.bone_from_mesh = cluster.bone_from_mesh;
-    forVerticesOf(part, controlPoints, cluster.points,
-      [&](std::uint32_t vertex, std::uint32_t place)
+    places.visit(cluster.points,
+      [&](std::uint32_t vertex, std::size_t place)
       {
         bone.vertices.push_back(vertex);
         bone.weights.push_back(float(cluster.weights[place]));
       });
-    mesh.bones.push_back(std::move(bone));
+    if (!bone.vertices.empty())
+    {
+      mesh.bones.push_back(std::move(bone));
+    }
   }
-  if (!this->Clusters.empty() && (this->IsDual || !this->DualPoints.empty()))
+  if (!mesh.bones.empty() && (this->IsDual || !this->DualPoints.empty()))
   {
     mesh.dualQuaternions.assign(mesh.positions.size(), this->IsDual ? 1 : 0);
-    forVerticesOf(part, controlPoints, this->DualPoints,
-      [&](std::uint32_t vertex, std::uint32_t place)
+    places.visit(this->DualPoints, [&](std::uint32_t vertex, std::size_t place)
       { mesh.dualQuaternions[vertex] = std::clamp(this->DualShares[place], 0.0, 1.0); });
   }
   for (const Shape& shape : this->Shapes)
   {
     Target& target = mesh.targets.emplace_back();
     target.positions = mesh.positions;
-    forVerticesOf(part, controlPoints, shape.points,
-      [&](std::uint32_t vertex, std::uint32_t place)
+    places.visit(shape.points,
+      [&](std::uint32_t vertex, std::size_t place)
       {
         for (std::size_t c = 0; c < 3; ++c)
         {

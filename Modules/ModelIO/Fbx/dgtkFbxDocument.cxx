@@ -84,9 +84,17 @@ std::int64_t FbxElement::integer(std::size_t index, std::int64_t otherwise) cons
   return whole != nullptr ? *whole : otherwise;
 }
 
-std::vector<double> FbxElement::numbers() const { return listOf<double>(*this); }
+std::vector<double> FbxElement::numbers(std::string_view child) const
+{
+  const FbxElement* list = this->find(child);
+  return list != nullptr ? listOf<double>(*list) : std::vector<double>();
+}
 
-std::vector<std::int64_t> FbxElement::integers() const { return listOf<std::int64_t>(*this); }
+std::vector<std::int64_t> FbxElement::integers(std::string_view child) const
+{
+  const FbxElement* list = this->find(child);
+  return list != nullptr ? listOf<std::int64_t>(*list) : std::vector<std::int64_t>();
+}
 
 FbxElement readFbxDocument(const std::string& bytes, std::uint64_t budget)
 {
@@ -106,9 +114,13 @@ std::int64_t fbxVersion(const std::string& bytes, const FbxElement& document)
       return version->integer(0, 0);
     }
   }
-  return isBinary(bytes)
-           ? std::int64_t(static_cast<unsigned char>(bytes[23])) + 256 * static_cast<unsigned char>(bytes[24])
-           : 0;
+  if (!isBinary(bytes))
+  {
+    return 0;
+  }
+  const bool isBigEndian = bytes[22] != 0;
+  const auto byte = [&bytes](std::size_t at) { return std::int64_t(static_cast<unsigned char>(bytes[at])); };
+  return isBigEndian ? byte(26) + 256 * byte(25) : byte(23) + 256 * byte(24);
 }
 
 } // namespace dgtk::import

@@ -28,9 +28,9 @@ struct FbxElement
   /// Number of value `index`, or `otherwise`.
   double number(std::size_t index, double otherwise) const;
   std::int64_t integer(std::size_t index, std::int64_t otherwise) const;
-  /// All numbers of the element, a list's or the values themselves.
-  std::vector<double> numbers() const;
-  std::vector<std::int64_t> integers() const;
+  /// All numbers of a child, a list's or the values themselves; none where there is no such child.
+  std::vector<double> numbers(std::string_view child) const;
+  std::vector<std::int64_t> integers(std::string_view child) const;
 };
 
 /// The elements of a file as children of one without a name. Throws std::runtime_error where it is not as it should be,

@@ -37,13 +37,11 @@ public:
     : Mapping(mappingOf(layer))
     , Width(width)
   {
-    const FbxElement* numbers = layer.find(values);
-    const FbxElement* order = layer.find(indices);
-    this->Values = numbers != nullptr ? numbers->numbers() : std::vector<double>();
+    this->Values = layer.numbers(values);
     const FbxElement* reference = layer.find("ReferenceInformationType");
-    if (order != nullptr && (reference == nullptr || reference->text(0) != "Direct"))
+    if (layer.find(indices) != nullptr && (reference == nullptr || reference->text(0) != "Direct"))
     {
-      this->Indices = order->integers();
+      this->Indices = layer.integers(indices);
       this->IsIndexed = true;
     }
   }
@@ -81,24 +79,17 @@ private:
 FbxGeometry::FbxGeometry(const FbxElement& element)
   : Element(element)
 {
-  const FbxElement* vertices = element.find("Vertices");
-  const FbxElement* polygons = element.find("PolygonVertexIndex");
-  if (vertices == nullptr || polygons == nullptr)
-  {
-    return;
-  }
-  this->Positions = vertices->numbers();
+  this->Positions = element.numbers("Vertices");
   if (const FbxElement* layer = element.find("LayerElementMaterial"))
   {
-    const FbxElement* slots = layer->find("Materials");
     const By mapping = mappingOf(*layer);
-    if (slots != nullptr && (mapping == By::Polygon || mapping == By::All))
+    if (mapping == By::Polygon || mapping == By::All)
     {
-      this->Slots = slots->integers();
+      this->Slots = layer->integers("Materials");
       this->Slots.resize(mapping == By::All ? std::min<std::size_t>(this->Slots.size(), 1) : this->Slots.size());
     }
   }
-  const std::vector<std::int64_t> indices = polygons->integers();
+  const std::vector<std::int64_t> indices = element.integers("PolygonVertexIndex");
   std::size_t begin = 0;
   std::size_t polygon = 0;
   for (std::size_t i = 0; i < indices.size(); ++i)

@@ -107,15 +107,17 @@ std::string FbxMaterials::embedded(const FbxElement& video, const std::string& n
   {
     return known->second;
   }
+  const auto isPicture = [](const std::string& bytes)
+  { return bytes.compare(0, 4, "\x89PNG") == 0 || bytes.compare(0, 2, "\xff\xd8") == 0; };
   std::string bytes = content->text(0);
-  if (bytes.compare(0, 4, "\x89PNG") != 0 && bytes.compare(0, 2, "\xff\xd8") != 0)
+  if (!isPicture(bytes))
   {
     bytes.clear(); // text files have it in base64, in several pieces
     for (std::size_t i = 0; i < content->values.size() && addBase64(content->text(i), bytes); ++i)
     {
     }
   }
-  if (!bytes.empty())
+  if (isPicture(bytes)) // of others the name counts
   {
     known->second = "*" + std::to_string(this->To.textures.size());
     Texture texture;

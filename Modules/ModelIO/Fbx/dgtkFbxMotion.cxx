@@ -19,12 +19,20 @@ struct Driven
   std::int32_t node = noIndex;
   JointPart part = JointPart::Translation;
   std::int32_t blend = noIndex;
+  std::array<double, 3> standing{}; ///< its value where nothing drives it
 
   bool operator<(const Driven& other) const
   {
     return std::tie(this->node, this->part, this->blend) < std::tie(other.node, other.part, other.blend);
   }
 };
+
+/// What changes nothing when it is added, or a scale multiplied.
+std::array<double, 3> neutral(bool isFactor)
+{
+  const double one = isFactor ? 1 : 0;
+  return { one, one, one };
+}
 
 class StackReader
 {
@@ -40,10 +48,14 @@ public:
   {
     const FbxObject& stack = this->Scene.object(this->Stack);
     this->To.name = stack.name;
-    const bool isLocal = stack.property("LocalStart") != nullptr && stack.property("LocalStop") != nullptr;
-    this->Begin = double(stack.integer(isLocal ? "LocalStart" : "ReferenceStart", 0));
-    const double end = double(stack.integer(isLocal ? "LocalStop" : "ReferenceStop", 0));
-    this->To.duration = std::max(end - this->Begin, 0.0) / this->Scene.ticks();
+    const bool isLocal = stack.says("LocalStop") || !stack.says("ReferenceStop");
+    const bool isSaid = !isLocal || stack.says("LocalStop");
+    std::array<double, 2> times{ double(stack.integer(isLocal ? "LocalStart" : "ReferenceStart", 0)),
+      double(stack.integer(isLocal ? "LocalStop" : "ReferenceStop", 0)) };
+    const std::array<double, 2>* const take = isSaid ? nullptr : this->Scene.take(stack.name);
+    times = take != nullptr ? *take : times;
+    this->Begin = times[0];
+    this->To.duration = std::max(times[1] - times[0], 0.0) / this->Scene.ticks();
     bool isBase = true;
     for (const std::size_t layer : this->Scene.childrenOf(this->Stack, "AnimationLayer"))
     {
@@ -61,6 +73,13 @@ public:
         this->To.joints.push_back({ driven.node, driven.part, std::move(layers) });
       }
     }
+    if (!isSaid && take == nullptr)
+    {
+      for (const Curve& curve : this->To.curves)
+      {
+        this->To.duration = std::max(this->To.duration, curve.times.back());
+      }
+    }
     return std::move(this->To);
   }
 
@@ -74,6 +93,7 @@ private:
       if (blend != this->Targets.blends.end())
       {
         driven.blend = blend->second;
+        driven.standing[0] = this->Scene.object(link.object).number(link.property, 0);
         return driven;
       }
       driven.node = this->Targets.nodes[link.object];
@@ -84,6 +104,7 @@ private:
         if (driven.node != noIndex && link.property == property)
         {
           driven.part = part;
+          driven.standing = this->Scene.object(link.object).vector(property, neutral(part == JointPart::Scale));
           return driven;
         }
       }
@@ -109,12 +130,13 @@ private:
 
   /// Values and curves of an AnimationCurveNode, whose properties are called "d|X" and so on; what is one number,
   /// "d|" and the name of what it drives.
-  void readValues(const FbxObject& curves, Layer& to)
+  /// What is not said is `otherwise`.
+  void readValues(const FbxObject& curves, const std::array<double, 3>& otherwise, Layer& to)
   {
     constexpr const char* names[] = { "d|X", "d|Y", "d|Z" };
     for (std::size_t i = 0; i < 3; ++i)
     {
-      to.values[i] = curves.number(names[i], 0);
+      to.values[i] = curves.number(names[i], otherwise[i]);
     }
     for (const FbxObject::Link& link : curves.parents)
     {
@@ -146,7 +168,7 @@ private:
         if (link.object == index && link.property == "Weight")
         {
           Layer weight;
-          this->readValues(this->Scene.object(curves), weight);
+          this->readValues(this->Scene.object(curves), {}, weight);
           layer.weightCurve = weight.curves[0];
         }
       }
@@ -165,7 +187,9 @@ private:
                                  : driven->part == JointPart::Scale    ? "ScaleAccumulationMode"
                                                                        : nullptr;
       own.composed = accumulation != nullptr && object.integer(accumulation, 0) == 0 ? 1 : 0;
-      this->readValues(node, own);
+      this->readValues(node,
+        own.mode == LayerMode::Add ? neutral(own.composed != 0 && driven->part == JointPart::Scale) : driven->standing,
+        own);
       this->Layers[*driven].push_back(own);
     }
   }

@@ -50,6 +50,8 @@ const FbxElement* propertyOf(const FbxElement* element, std::string_view wanted)
 }
 } // namespace
 
+bool FbxObject::says(std::string_view wanted) const { return propertyOf(this->element, wanted) != nullptr; }
+
 const FbxElement* FbxObject::property(std::string_view wanted) const
 {
   const FbxElement* own = propertyOf(this->element, wanted);
@@ -97,6 +99,14 @@ FbxScene::FbxScene(const FbxElement& document)
     object.kind = element.text(2);
     byId.emplace(element.integer(0, 0), this->Objects.size()); // of two of one number the first counts
     this->Objects.push_back(std::move(object));
+  }
+  for (const FbxElement& take : orNone(document.find("Takes")).children)
+  {
+    const std::vector<double> times = take.numbers("LocalTime");
+    if (times.size() == 2)
+    {
+      this->Takes[take.text(0)] = { times[0], times[1] };
+    }
   }
   for (const FbxElement& connection : orNone(document.find("Connections")).children)
   {

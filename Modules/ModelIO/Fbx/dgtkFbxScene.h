@@ -31,6 +31,8 @@ struct FbxObject
   bool is(std::string_view type) const { return this->element != nullptr && this->element->name == type; }
   bool is(std::string_view type, std::string_view itsKind) const { return this->is(type) && this->kind == itsKind; }
 
+  /// Whether the object itself, and not only its class, has a property.
+  bool says(std::string_view wanted) const;
   /// The element of a property, its values from index 4 on; null where neither the object nor its class has it.
   const FbxElement* property(std::string_view wanted) const;
   double number(std::string_view wanted, double otherwise) const;
@@ -51,10 +53,17 @@ public:
   std::vector<std::size_t> childrenOf(std::size_t object, std::string_view type) const;
   /// Units of the file's times in a second.
   double ticks() const { return this->Ticks; }
+  /// First and last time of the take of an animation stack's name; null where the file has none.
+  const std::array<double, 2>* take(const std::string& name) const
+  {
+    const auto found = this->Takes.find(name);
+    return found == this->Takes.end() ? nullptr : &found->second;
+  }
 
 private:
   std::vector<FbxObject> Objects;
   double Ticks;
+  std::map<std::string, std::array<double, 2>> Takes;
 };
 
 } // namespace dgtk::import

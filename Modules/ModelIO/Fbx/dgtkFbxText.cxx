@@ -94,14 +94,15 @@ private:
     this->At = end + 1;
     this->Memory.take(text.size());
     constexpr std::pair<std::string_view, char> escapes[] = { { "&quot;", '"' }, { "&cr;", '\r' }, { "&lf;", '\n' } };
-    for (const auto& [escape, c] : escapes)
+    std::string plain;
+    for (std::size_t at = 0; at < text.size();)
     {
-      for (std::size_t at = 0; (at = text.find(escape, at)) != std::string::npos; ++at)
-      {
-        text.replace(at, escape.size(), 1, c);
-      }
+      const auto begins = [&](const auto& escape) { return text.compare(at, escape.first.size(), escape.first) == 0; };
+      const auto found = std::find_if(std::begin(escapes), std::end(escapes), begins);
+      plain += found == std::end(escapes) ? text[at] : found->second;
+      at += found == std::end(escapes) ? 1 : found->first.size();
     }
-    return text;
+    return plain;
   }
 
   static FbxValue asNumber(std::string_view word)

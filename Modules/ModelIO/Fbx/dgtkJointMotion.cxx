@@ -12,7 +12,7 @@ namespace dgtk
 
 namespace
 {
-using import::Beyond;
+using import::Extrapolation;
 using import::Joint;
 using import::JointPart;
 using import::Layer;
@@ -89,12 +89,12 @@ double beyond(const import::Curve& curve, double time)
   const double value = isBefore ? curve.values.front() : curve.values.back();
   const double away = isBefore ? first - time : time - last;
   const double length = last - first;
-  const Beyond mode = curve.beyond[side];
-  if (mode == Beyond::Slope)
+  const Extrapolation mode = curve.extrapolation[side];
+  if (mode == Extrapolation::Slope)
   {
     return value + curve.slopes[side] * (isBefore ? -away : away);
   }
-  if (mode == Beyond::Constant || !(length > 0) || curve.repeats[side] == 0)
+  if (mode == Extrapolation::Constant || !(length > 0) || curve.repeats[side] == 0)
   {
     return value;
   }
@@ -105,11 +105,11 @@ double beyond(const import::Curve& curve, double time)
     rounds = curve.repeats[side] - 1;
     rest = length;
   }
-  const bool isMirrored = mode == Beyond::Mirror && std::fmod(rounds, 2) == 0;
+  const bool isMirrored = mode == Extrapolation::Mirror && std::fmod(rounds, 2) == 0;
   const bool isBackward = isMirrored != isBefore;
   const double found = inside(curve, isBackward ? last - rest : first + rest);
   const double gain = curve.values.back() - curve.values.front();
-  return mode == Beyond::RepeatRelative ? found + (isBefore ? -gain : gain) * (rounds + 1) : found;
+  return mode == Extrapolation::RepeatRelative ? found + (isBefore ? -gain : gain) * (rounds + 1) : found;
 }
 
 Eigen::Matrix3d linear(const Transform& t)
@@ -171,8 +171,13 @@ Eigen::Quaterniond rotationOf(const Triple& degrees, const std::array<std::int32
   return all;
 }
 
+/// Of a weight as the exponent: what has none does not count, whatever it is.
 double power(double base, double exponent)
 {
+  if (exponent <= 0 || exponent >= 1)
+  {
+    return exponent <= 0 ? 1 : base;
+  }
   const double size = portable::pow(std::abs(base), exponent);
   return base < 0 ? -size : size;
 }
@@ -187,7 +192,7 @@ Triple combined(const Triple& below, const Triple& own, const Layer& layer, doub
     const Eigen::Quaterniond a = rotationOf(below, order);
     const Eigen::Quaterniond b = rotationOf(own, order);
     const Eigen::Quaterniond both =
-      isBlend ? between(a, b, weight) : a * between(Eigen::Quaterniond::Identity(), b, weight);
+      isBlend ? slerp(a, b, weight) : a * slerp(Eigen::Quaterniond::Identity(), b, weight);
     return anglesOf(both.normalized().toRotationMatrix(), order);
   }
   Triple both;
@@ -261,7 +266,7 @@ double valueAt(const import::Curve& curve, double time)
   return curve.times.size() == 1 ? curve.values.front() : isInside ? inside(curve, time) : beyond(curve, time);
 }
 
-Eigen::Quaterniond between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double u)
+Eigen::Quaterniond slerp(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double u)
 {
   const double cosine = a.dot(b);
   const double angle = 2 * portable::asin(std::sqrt(std::max(0.0, (1 - std::abs(cosine)) / 2)));
@@ -319,12 +324,12 @@ double percentAt(const import::Blend& blend, const import::Animation* animation,
   double percent = blend.percent;
   if (animation != nullptr)
   {
-    for (const import::BlendChannel& channel : animation->blends)
+    const std::vector<import::BlendChannel>& all = animation->blends;
+    const auto found = std::lower_bound(all.begin(), all.end(), blend.number,
+      [](const import::BlendChannel& channel, std::int32_t number) { return channel.number < number; });
+    if (found != all.end() && found->number == blend.number)
     {
-      if (channel.number == blend.number)
-      {
-        percent = valueOf(channel.layers, *animation, time, { percent, 0, 0 }, JointPart::Translation, {})[0];
-      }
+      percent = valueOf(found->layers, *animation, time, { percent, 0, 0 }, JointPart::Translation, {})[0];
     }
   }
   return percent;

@@ -15,7 +15,7 @@ namespace dgtk
 double valueAt(const import::Curve& curve, double time);
 
 /// A rotation between two, along the shorter arc (Shoemake 1985); not of unit length.
-Eigen::Quaterniond between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double u);
+Eigen::Quaterniond slerp(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double u);
 
 /// Transforms model_from_node of nodes as they stand in the file (FBX SDK, `FbxNode`, for those that are joints);
 /// `animation`, which may be null, says how joints move, and `parent_from_node` where the other nodes are.

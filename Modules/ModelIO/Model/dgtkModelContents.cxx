@@ -26,11 +26,15 @@ double sampled(const Image& image, int channel, int x, int y, int width, int hei
     const int low = std::min(static_cast<int>(place), std::max(from - 2, 0));
     return std::tuple(low, std::min(low + 1, from - 1), place - low);
   };
-  const auto [left, right, u] = between(x, width, image.width);
-  const auto [top, bottom, v] = between(y, height, image.height);
   const auto texel = [&](int i, int j) {
     return double(image.rgba[4 * (std::size_t(j) * std::size_t(image.width) + std::size_t(i)) + std::size_t(channel)]);
   };
+  if (image.width == width && image.height == height)
+  {
+    return texel(x, y);
+  }
+  const auto [left, right, u] = between(x, width, image.width);
+  const auto [top, bottom, v] = between(y, height, image.height);
   return (texel(left, top) * (1 - u) + texel(right, top) * u) * (1 - v) +
          (texel(left, bottom) * (1 - u) + texel(right, bottom) * u) * v;
 }

@@ -96,7 +96,8 @@ private:
       {
         // a name may have blanks in it
         const std::size_t at = this->Text.find(this->Words[2], this->Text.find("TextureFile") + 11);
-        this->Header.texture = this->Text.substr(at, this->Text.find_last_not_of(" \t\r") + 1 - at);
+        const std::size_t end = this->Text.find_last_not_of(" \t\r") + 1;
+        this->Header.texture = this->Words.size() == 3 ? this->Words[2] : this->Text.substr(at, end - at);
       }
       else if (this->Words.size() == 4 && this->Words[1] == "TextureWrap" && this->Pictures == 1)
       {

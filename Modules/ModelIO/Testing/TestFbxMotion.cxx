@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // FBX: curves, layers, blend shapes and skins, against closed forms.
+#include "dgtkAssimpDeformation.h"
 #include "dgtkFbxMaker.h"
 #include "dgtkModelChecks.h"
 
@@ -251,7 +252,40 @@ TEST(FbxMotion, LayersAddAndBlend)
   expectAt(at(50, 0, scale, { 2, 1, 1 }, { 9, 1, 1 }), 0, { 6, 0, 0 });
   expectAt(at(50, 2, scale, { 4, 1, 1 }, { 9, 1, 1 }), 0, { 6, 0, 0 });
   expectAt(at(50, 0, scale, { 2, 1, 1 }, { -9, 1, 1 }), 0, { -6, 0, 0 });
+  expectAt(at(0, 0, scale, { 2, 1, 1 }, { 0, 1, 1 }), 0, { 2, 0, 0 }); // without a weight it is not there
+  expectAt(at(0, 0, scale, { 2, 1, 1 }, { -9, 1, 1 }), 0, { 2, 0, 0 });
+  expectAt(at(100, 2, scale, { 0, 1, 1 }, { -9, 1, 1 }), 0, { -9, 0, 0 });
   expectAt(at(50, 0, scale, { 2, 1, 1 }, { 9, 0, 0 }, true), 0, { 6.5, 0, 0 });
+}
+
+TEST(FbxMotion, WhatACurveNodeDoesNotSayStaysAsItStands)
+{
+  FbxMaker maker;
+  const std::int64_t node = maker.model();
+  maker.mesh(node, { 1, 1, 1, 0, 1, 0, 0, 0, 1 });
+  maker.set(node, "Lcl Scaling", { 2, 3, 4 });
+  maker.animate(maker.stack(1), node, "Lcl Scaling", "d|X", { { 0, 5, linear } });
+  expectAt(pointsAt(*readBytes("fbx", maker.text()), 0.5), 0, { 5, 3, 4 });
+  maker.animate(maker.layer(100, 0), node, "Lcl Scaling", "d|Y", { { 0, 2, linear } });
+  expectAt(pointsAt(*readBytes("fbx", maker.text()), 0.5), 0, { 5, 6, 4 });
+}
+
+TEST(FbxMotion, StacksWithoutTimesLastAsLongAsTheirKeys)
+{
+  FbxMaker maker;
+  const std::int64_t node = maker.model();
+  maker.mesh(node);
+  const std::int64_t layer = maker.stack(1);
+  maker.item(layer - 1).children.clear(); // the stack's properties
+  maker.animate(layer, node, "Lcl Translation", "d|X", { { 0, 0, linear }, { 3, 6, linear } });
+  const auto model = readBytes("fbx", maker.text());
+  EXPECT_EQ(model->frames, 91);
+  expectAt(pointsAt(*model, 2), 0, { 4, 0, 0 });
+  const auto ticks = static_cast<std::int64_t>(maker.ticks);
+  maker.takes = { { "Take", { std::string("Take") }, { { "LocalTime", { ticks, 2 * ticks } } } } };
+  const auto taken = readBytes("fbx", maker.text());
+  EXPECT_EQ(taken->frames, 31);
+  expectAt(pointsAt(*taken, 0), 0, { 2, 0, 0 });
 }
 
 TEST(FbxMotion, WeightsOfLayersMoveToo)
@@ -457,5 +491,8 @@ TEST_F(FbxSkinned, MovesAlsoWhenReadFromTheCache)
 {
   const auto model = readBytes("fbx", this->Maker.text());
   EXPECT_EQ(model->animations.at(0).name, "Take");
-  EXPECT_FALSE(model->deformation->saved().empty());
+  const auto kept = dgtk::AssimpDeformation::restored(model->deformation->saved());
+  std::vector<Eigen::Vector3d> points;
+  kept->positionsAt(0, 0.5 * model->animations[0].fps, points);
+  EXPECT_EQ(points, this->middle());
 }

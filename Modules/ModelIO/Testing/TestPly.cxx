@@ -237,7 +237,7 @@ TEST(Ply, StripsEdgesAndWedges)
 TEST(Ply, ThePictureThatACommentNames)
 {
   const std::pair<const char*, const char*> table[] = { { "skin.png", "skin.png" }, { "skin.png \t", "skin.png" },
-    { "my skin.png", "my skin.png" }, { "\"my skin.png\"", "my skin.png" } };
+    { "my skin.png", "my skin.png" }, { "  my skin.png \t", "my skin.png" }, { "\"my skin.png\"", "my skin.png" } };
   for (const auto& [written, name] : table)
   {
     const std::string comment = std::string("comment TextureFile ") + written + "\nelement vertex";

@@ -296,7 +296,7 @@ std::vector<FbxItem> FbxMaker::document() const
     { { "FBXHeaderVersion", { std::int64_t(1004) } }, { "FBXVersion", { this->version } } } };
   head.children.insert(head.children.end(), this->header.begin(), this->header.end());
   return { head, { "Definitions", {}, this->definitions }, { "Objects", {}, this->Objects },
-    { "Connections", {}, this->Connections } };
+    { "Connections", {}, this->Connections }, { "Takes", {}, this->takes } };
 }
 
 std::string FbxMaker::text() const { return TextWriter().run(this->document()); }

@@ -76,6 +76,7 @@ public:
   double ticks = 46186158000.; ///< a second
   std::vector<FbxItem> header; ///< more of FBXHeaderExtension
   std::vector<FbxItem> definitions;
+  std::vector<FbxItem> takes;
 
 private:
   std::vector<FbxItem> document() const;
