@@ -47,7 +47,7 @@ public:
   {
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      if (points[i] >= 0 && points[i] + 1 < static_cast<std::int64_t>(this->First.size()))
+      if (points[i] >= 0 && points[i] < static_cast<std::int64_t>(this->First.size()) - 1)
       {
         const auto point = static_cast<std::size_t>(points[i]);
         std::for_each(this->List.begin() + this->First[point], this->List.begin() + this->First[point + 1],

@@ -158,32 +158,61 @@ std::string FbxMaterials::pictureOf(std::size_t index)
   return name;
 }
 
-void FbxMaterials::readPicture(const FbxObject& material, Material& to, FbxPlacement& placement)
+/// The texture that drives a property of a material, or 0; of several in layers the first one.
+std::size_t FbxMaterials::textureOf(const FbxObject& material, const char* property) const
 {
-  for (const char* property : { "DiffuseColor", "Maya|baseColor", "Maya|TEX_color_map", "Maya|base_color",
-         "3dsMax|Parameters|base_color_map", "3dsMax|Parameters|base_color" })
+  for (const FbxObject::Link& link : material.children)
   {
-    for (const FbxObject::Link& link : material.children)
+    std::size_t index = link.property == property ? link.object : 0;
+    if (this->File.object(index).is("LayeredTexture"))
     {
-      std::size_t index = link.object;
-      if (link.property != property || to.texture.name.size() > 0)
-      {
-        continue;
-      }
-      if (this->File.object(index).is("LayeredTexture"))
-      {
-        const std::vector<std::size_t> layers = this->File.childrenOf(index, "Texture");
-        index = layers.empty() ? index : layers.front();
-      }
-      const FbxObject& texture = this->File.object(index);
-      if (texture.is("Texture"))
-      {
-        const auto wrap = [&texture](const char* name)
-        { return texture.integer(name, 0) == 1 ? Wrap::Clamp : Wrap::Repeat; };
-        to.texture = { this->pictureOf(index), { wrap("WrapModeU"), wrap("WrapModeV") } };
-        placement.uvSet = texture.text("UVSet");
-        placement.picture_from_uv = placementOf(texture);
-      }
+      const std::vector<std::size_t> layers = this->File.childrenOf(index, "Texture");
+      index = layers.empty() ? 0 : layers.front();
+    }
+    if (this->File.object(index).is("Texture"))
+    {
+      return index;
+    }
+  }
+  return 0;
+}
+
+/// A picture takes the place of the colour that it drives; factors stay.
+void FbxMaterials::readPictures(const FbxObject& material, Material& to, FbxPlacement& placement)
+{
+  struct Use
+  {
+    const char* property;
+    Map Material::*map;
+    std::array<double, 3> Material::*color;
+    const char* factor;
+  };
+  constexpr Use uses[] = { { "DiffuseColor", &Material::texture, &Material::diffuse, "DiffuseFactor" },
+    { "Maya|baseColor", &Material::texture, &Material::diffuse, "Maya|base" },
+    { "Maya|TEX_color_map", &Material::texture, &Material::diffuse, "" },
+    { "3dsMax|Parameters|base_color_map", &Material::texture, &Material::diffuse, "" },
+    { "EmissiveColor", &Material::emissionMap, &Material::emission, "EmissiveFactor" },
+    { "NormalMap", &Material::normalMap, nullptr, "" } };
+  bool isPlaced = false;
+  for (const Use& use : uses)
+  {
+    const std::size_t index = this->textureOf(material, use.property);
+    if (index == 0 || !(to.*use.map).name.empty())
+    {
+      continue;
+    }
+    const FbxObject& texture = this->File.object(index);
+    const auto wrap = [&texture](const char* name)
+    { return texture.integer(name, 0) == 1 ? Wrap::Clamp : Wrap::Repeat; };
+    to.*use.map = { this->pictureOf(index), { wrap("WrapModeU"), wrap("WrapModeV") } };
+    if (use.color != nullptr)
+    {
+      (to.*use.color).fill(material.number(use.factor, 1));
+    }
+    if (!isPlaced) // all pictures lie where the first one does
+    {
+      placement = { texture.text("UVSet"), placementOf(texture) };
+      isPlaced = true;
     }
   }
 }
@@ -200,7 +229,7 @@ std::int32_t FbxMaterials::indexOf(std::size_t object)
   material.name = from.name;
   FbxPlacement placement;
   readColors(from, material);
-  this->readPicture(from, material, placement);
+  this->readPictures(from, material, placement);
   const auto made = static_cast<std::int32_t>(this->To.materials.size());
   this->To.materials.push_back(material);
   this->Placements.push_back(placement);

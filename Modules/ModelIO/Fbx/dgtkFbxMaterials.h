@@ -37,7 +37,8 @@ public:
   }
 
 private:
-  void readPicture(const FbxObject& material, Material& to, FbxPlacement& placement);
+  std::size_t textureOf(const FbxObject& material, const char* property) const;
+  void readPictures(const FbxObject& material, Material& to, FbxPlacement& placement);
   std::string pictureOf(std::size_t texture);
   std::string embedded(const FbxElement& video, const std::string& name);
 

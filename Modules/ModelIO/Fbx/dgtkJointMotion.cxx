@@ -299,10 +299,9 @@ std::vector<Eigen::Affine3d> poseOf(const std::vector<import::Node>& nodes,
     const Transform middle(joint.middle);
     Eigen::Affine3d own = affine(Transform::shift(joint.translation) * before * turn * middle *
                                  Transform::scale(joint.scale) * Transform(joint.after));
-    const Eigen::Affine3d root = Eigen::Affine3d::Identity();
     const Inherited from = hasParent ? inherited[above] : Inherited();
     Inherited& to = inherited[i];
-    Eigen::Affine3d model_from_parent = hasParent ? pose[above] : root;
+    Eigen::Affine3d model_from_parent = hasParent ? pose[above] : Eigen::Affine3d(Eigen::Affine3d::Identity());
     if (joint.inherit != import::Inherit::RSrs)
     {
       model_from_parent = from.unscaled;

@@ -418,6 +418,28 @@ TEST_F(FbxPictures, OfOtherMaterialsAndLayers)
   EXPECT_EQ(model->textures.at(0).name, "under.png") << "the first one of a layered texture, and its colour first";
 }
 
+TEST_F(FbxPictures, TakeThePlaceOfTheColoursThatTheyDrive)
+{
+  FbxMaker& maker = this->Maker;
+  maker.set(this->Material, "DiffuseColor", { 0.5, 0.5, 0.25 });
+  maker.set(this->Material, "DiffuseFactor", Numbers{ 0.75 });
+  maker.set(this->Material, "EmissiveColor", { 0, 0, 0 });
+  maker.set(this->Material, "EmissiveFactor", Numbers{ 0.5 });
+  this->use();
+  maker.connect(
+    maker.add("Texture", "", { { "FileName", { std::string("glow.png") } } }), this->Material, "EmissiveColor");
+  maker.connect(
+    maker.add("Texture", "", { { "FileName", { std::string("normals.png") } } }), this->Material, "NormalMap");
+  const auto model = read(maker);
+  const dgtk::Material& material = model->materials.at(0);
+  expectNear(material.diffuse, { 0.75, 0.75, 0.75 });
+  expectNear(material.emission, { 0.5, 0.5, 0.5 });
+  ASSERT_EQ(model->textures.size(), 3u);
+  EXPECT_EQ(model->textures[std::size_t(material.texture)].name, "maps\\own.png");
+  EXPECT_EQ(model->textures[std::size_t(material.emissionMap)].name, "glow.png");
+  EXPECT_EQ(model->textures[std::size_t(material.normalMap)].name, "normals.png");
+}
+
 TEST_F(FbxPictures, InsideTheFile)
 {
   this->use();
