@@ -149,7 +149,7 @@ std::string FbxMaterials::pictureOf(std::size_t index)
   {
     const FbxElement& element = *this->File.object(video).element;
     name = name.empty() ? named(element) : name;
-    const std::string inside = this->embedded(element, name.substr(name.find_last_of("/\\") + 1));
+    std::string inside = this->embedded(element, name.substr(name.find_last_of("/\\") + 1));
     if (!inside.empty())
     {
       return inside;
