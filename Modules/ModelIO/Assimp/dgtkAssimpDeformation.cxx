@@ -13,20 +13,6 @@ namespace dgtk
 
 namespace
 {
-Eigen::Affine3d affine(const import::Matrix& m)
-{
-  Eigen::Affine3d result;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      result(row, column) = m[static_cast<std::size_t>(row * 4 + column)];
-    }
-  }
-  result.makeAffine();
-  return result;
-}
-
 /// How the values of the key at or before a time and of the next one make the value at it: sums of values and tangents
 /// with these factors.
 struct Between
@@ -195,7 +181,7 @@ std::vector<Eigen::Affine3d> AssimpDeformation::pose(int animation, double time)
   pose.reserve(nodes.size());
   for (const import::Node& node : nodes)
   {
-    pose.push_back(affine(node.parent_from_node));
+    pose.push_back(affineOf(node.parent_from_node));
   }
   if (const import::Animation* known = this->animationOf(animation))
   {
@@ -261,7 +247,7 @@ void AssimpDeformation::positionsOf(const PosedMesh& where, const std::vector<Ei
   for (const import::Bone& bone : mesh.bones)
   {
     model_from_bind.push_back(
-      bone.node >= 0 ? pose[static_cast<std::size_t>(bone.node)] * affine(bone.bone_from_mesh) : model_from_mesh);
+      bone.node >= 0 ? pose[static_cast<std::size_t>(bone.node)] * affineOf(bone.bone_from_mesh) : model_from_mesh);
   }
   for (const std::uint32_t vertex : where.vertices)
   {
@@ -311,7 +297,7 @@ std::vector<Eigen::Matrix3d> AssimpDeformation::linearOf(
   for (const import::Bone& bone : this->Scene->meshes[mesh].bones)
   {
     model_from_bind.push_back(bone.node >= 0 ? Eigen::Matrix3d(pose[static_cast<std::size_t>(bone.node)].linear() *
-                                                               affine(bone.bone_from_mesh).linear())
+                                                               affineOf(bone.bone_from_mesh).linear())
                                              : Eigen::Matrix3d(pose[node].linear()));
   }
   std::vector<Eigen::Matrix3d> linear;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace dgtk::import
 {
@@ -238,7 +239,7 @@ std::vector<Tangents> tangentsOf(const std::vector<Key>& keys)
   return all;
 }
 
-void readBeyond(const FbxElement& element, const char* name, std::size_t side, Curve& to)
+void readExtrapolation(const FbxElement& element, const char* name, std::size_t side, Curve& to)
 {
   const FbxElement* found = element.find(name);
   const FbxElement* type = found != nullptr ? found->find("Type") : nullptr;
@@ -246,22 +247,12 @@ void readBeyond(const FbxElement& element, const char* name, std::size_t side, C
   {
     return;
   }
-  switch (type->text(0).empty() ? type->integer(0, 'C') : type->text(0)[0])
+  constexpr std::pair<char, Extrapolation> modes[] = { { 'A', Extrapolation::RepeatRelative },
+    { 'K', Extrapolation::Slope }, { 'M', Extrapolation::Mirror }, { 'R', Extrapolation::Repeat } };
+  const std::int64_t letter = type->text(0).empty() ? type->integer(0, 0) : type->text(0)[0];
+  for (const auto& [known, mode] : modes)
   {
-    case 'A':
-      to.extrapolation[side] = Extrapolation::RepeatRelative;
-      break;
-    case 'K':
-      to.extrapolation[side] = Extrapolation::Slope;
-      break;
-    case 'M':
-      to.extrapolation[side] = Extrapolation::Mirror;
-      break;
-    case 'R':
-      to.extrapolation[side] = Extrapolation::Repeat;
-      break;
-    default:
-      break;
+    to.extrapolation[side] = letter == known ? mode : to.extrapolation[side];
   }
   if (const FbxElement* repeats = found->find("Repetition"))
   {
@@ -273,8 +264,8 @@ void readBeyond(const FbxElement& element, const char* name, std::size_t side, C
 Curve readFbxCurve(const FbxElement& element, double begin, double ticks)
 {
   Curve to;
-  readBeyond(element, "Pre-Extrapolation", 0, to);
-  readBeyond(element, "Post-Extrapolation", 1, to);
+  readExtrapolation(element, "Pre-Extrapolation", 0, to);
+  readExtrapolation(element, "Post-Extrapolation", 1, to);
   const std::vector<Key> keys = readKeys(element, begin, ticks);
   const std::vector<Tangents> tangents = tangentsOf(keys);
   for (std::size_t i = 0; i < keys.size(); ++i)

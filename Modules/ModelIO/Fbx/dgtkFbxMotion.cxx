@@ -48,12 +48,13 @@ public:
   {
     const FbxObject& stack = this->Scene.object(this->Stack);
     this->To.name = stack.name;
-    const bool isLocal = stack.says("LocalStop") || !stack.says("ReferenceStop");
-    const bool isSaid = !isLocal || stack.says("LocalStop");
-    std::array<double, 2> times{ double(stack.integer(isLocal ? "LocalStart" : "ReferenceStart", 0)),
-      double(stack.integer(isLocal ? "LocalStop" : "ReferenceStop", 0)) };
+    const bool isLocal = stack.says("LocalStop");
+    const bool isSaid = isLocal || stack.says("ReferenceStop");
     const std::array<double, 2>* const take = isSaid ? nullptr : this->Scene.take(stack.name);
-    times = take != nullptr ? *take : times;
+    const std::array<double, 2> times =
+      take != nullptr ? *take
+                      : std::array<double, 2>{ double(stack.integer(isLocal ? "LocalStart" : "ReferenceStart", 0)),
+                          double(stack.integer(isLocal ? "LocalStop" : "ReferenceStop", 0)) };
     this->Begin = times[0];
     this->To.duration = std::max(times[1] - times[0], 0.0) / this->Scene.ticks();
     bool isBase = true;
@@ -129,8 +130,7 @@ private:
   }
 
   /// Values and curves of an AnimationCurveNode, whose properties are called "d|X" and so on; what is one number,
-  /// "d|" and the name of what it drives.
-  /// What is not said is `otherwise`.
+  /// "d|" and the name of what it drives. What is not said is `otherwise`.
   void readValues(const FbxObject& curves, const std::array<double, 3>& otherwise, Layer& to)
   {
     constexpr const char* names[] = { "d|X", "d|Y", "d|Z" };

@@ -112,27 +112,6 @@ double beyond(const import::Curve& curve, double time)
   return mode == Extrapolation::RepeatRelative ? found + (isBefore ? -gain : gain) * (rounds + 1) : found;
 }
 
-Eigen::Matrix3d linear(const Transform& t)
-{
-  Eigen::Matrix3d m;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      m(row, column) = t(std::size_t(row), std::size_t(column));
-    }
-  }
-  return m;
-}
-
-Eigen::Affine3d affine(const Transform& t)
-{
-  Eigen::Affine3d result = Eigen::Affine3d::Identity();
-  result.linear() = linear(t);
-  result.translation() = Eigen::Vector3d(t(0, 3), t(1, 3), t(2, 3));
-  return result;
-}
-
 /// Degrees of a rotation about three axes, about `order[0]` first.
 Triple anglesOf(const Eigen::Matrix3d& r, const std::array<std::int32_t, 3>& order)
 {
@@ -260,6 +239,13 @@ struct Inherited
 };
 } // namespace
 
+Eigen::Affine3d affineOf(const import::Matrix& matrix)
+{
+  Eigen::Affine3d result(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix.data()));
+  result.makeAffine();
+  return result;
+}
+
 double valueAt(const import::Curve& curve, double time)
 {
   const bool isInside = time >= curve.times.front() && time <= curve.times.back();
@@ -297,8 +283,9 @@ std::vector<Eigen::Affine3d> poseOf(const std::vector<import::Node>& nodes,
     const Transform before(joint.before);
     const Transform turn = Transform::turn(joint.rotation, joint.order);
     const Transform middle(joint.middle);
-    Eigen::Affine3d own = affine(Transform::shift(joint.translation) * before * turn * middle *
-                                 Transform::scale(joint.scale) * Transform(joint.after));
+    Eigen::Affine3d own = affineOf((Transform::shift(joint.translation) * before * turn * middle *
+                                    Transform::scale(joint.scale) * Transform(joint.after))
+                                     .matrix());
     const Inherited from = hasParent ? inherited[above] : Inherited();
     Inherited& to = inherited[i];
     Eigen::Affine3d model_from_parent = hasParent ? pose[above] : Eigen::Affine3d(Eigen::Affine3d::Identity());
@@ -310,7 +297,7 @@ std::vector<Eigen::Affine3d> poseOf(const std::vector<import::Node>& nodes,
     }
     to.scale = Eigen::Vector3d(joint.scale.data()).cwiseProduct(to.taken);
     Eigen::Affine3d turned = own;
-    turned.linear() = linear(before * turn * middle);
+    turned.linear() = affineOf((before * turn * middle).matrix()).linear();
     own.linear() = turned.linear() * to.scale.asDiagonal();
     to.unscaled = model_from_parent * turned;
     pose[i] = model_from_parent * own;

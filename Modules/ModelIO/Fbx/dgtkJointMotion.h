@@ -11,6 +11,9 @@
 namespace dgtk
 {
 
+/// Of a matrix of the stream, whose last row does not count.
+Eigen::Affine3d affineOf(const import::Matrix& matrix);
+
 /// Value of a curve with at least one key; time in seconds.
 double valueAt(const import::Curve& curve, double time);
 

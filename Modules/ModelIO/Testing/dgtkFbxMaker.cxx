@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFbxMaker.h"
 
+#include "dgtkModelChecks.h"
+
+#include <gtest/gtest.h>
+
 #include <zlib.h>
 
 #include <algorithm>
@@ -297,6 +301,22 @@ std::vector<FbxItem> FbxMaker::document() const
   head.children.insert(head.children.end(), this->header.begin(), this->header.end());
   return { head, { "Definitions", {}, this->definitions }, { "Objects", {}, this->Objects },
     { "Connections", {}, this->Connections }, { "Takes", {}, this->takes } };
+}
+
+FbxItem fbxLayer(
+  const std::string& type, const std::string& mapping, const std::string& reference, std::vector<FbxItem> values)
+{
+  FbxItem layer{ type, { std::int64_t(0) },
+    { { "MappingInformationType", { mapping } }, { "ReferenceInformationType", { reference } } } };
+  layer.children.insert(layer.children.end(), values.begin(), values.end());
+  return layer;
+}
+
+std::shared_ptr<const Model> readChecked(const FbxMaker& maker)
+{
+  auto model = readBytes("fbx", maker.text());
+  EXPECT_EQ(brokenPromise(*model), "");
+  return model;
 }
 
 std::string FbxMaker::text() const { return TextWriter().run(this->document()); }

@@ -3,7 +3,10 @@
 #ifndef dgtkFbxMaker_h
 #define dgtkFbxMaker_h
 
+#include "dgtkModel.h"
+
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -85,6 +88,13 @@ private:
   std::vector<FbxItem> Connections;
   std::int64_t Stack = 0;
 };
+
+/// A layer of a geometry ("LayerElementUV", ...).
+FbxItem fbxLayer(
+  const std::string& type, const std::string& mapping, const std::string& reference, std::vector<FbxItem> values);
+
+/// What the text of a file is read as, which keeps all promises of a model.
+std::shared_ptr<const Model> readChecked(const FbxMaker& maker);
 
 } // namespace dgtk::test
 
