@@ -11,7 +11,7 @@ namespace dgtk
 namespace
 {
 
-void allocate(unsigned int texture, GLint internal, GLenum format, int width, int height)
+void allocateTexture(unsigned int texture, GLint internal, GLenum format, int width, int height)
 {
   glBindTexture(GL_TEXTURE_2D, texture);
   glTexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, GL_FLOAT, nullptr);
@@ -36,27 +36,33 @@ void RasterTarget::release()
     glDeleteFramebuffers(1, &this->Framebuffer);
     glDeleteTextures(3, this->Textures.data());
     this->Framebuffer = 0;
+    this->AllocatedWidth = 0;
+    this->AllocatedHeight = 0;
   }
 }
 
 void RasterTarget::resize(int width, int height)
 {
-  if (this->Framebuffer && width == this->Width && height == this->Height)
+  if (!this->Framebuffer || width > this->AllocatedWidth || height > this->AllocatedHeight)
   {
-    return;
+    this->allocate(width, height);
   }
-  this->release();
   this->Width = width;
   this->Height = height;
+}
+
+void RasterTarget::allocate(int width, int height)
+{
+  this->release();
   while (glGetError() != GL_NO_ERROR)
   {
   }
   glGenTextures(3, this->Textures.data());
   glActiveTexture(GL_TEXTURE0);
-  allocate(this->Textures[0], GL_RGBA32F, GL_RGBA, width, height);
-  allocate(
+  allocateTexture(this->Textures[0], GL_RGBA32F, GL_RGBA, width, height);
+  allocateTexture(
     this->Textures[1], this->WithDepth ? GL_RGBA32F : GL_RG32F, this->WithDepth ? GL_RGBA : GL_RG, width, height);
-  allocate(this->Textures[2], GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height);
+  allocateTexture(this->Textures[2], GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height);
   glBindTexture(GL_TEXTURE_2D, 0);
   glGenFramebuffers(1, &this->Framebuffer);
   glBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
@@ -69,6 +75,8 @@ void RasterTarget::resize(int width, int height)
     throw MachineError("OpenGL has no framebuffer of " + std::to_string(width) + " x " + std::to_string(height) +
                        " pixels with two float colours and float depth");
   }
+  this->AllocatedWidth = width;
+  this->AllocatedHeight = height;
 }
 
 void RasterTarget::bind(bool color, bool ids)
@@ -83,9 +91,22 @@ void RasterTarget::clear(const std::array<float, 4>& color, float idDepth)
 {
   const float nothing[4] = { 0, 0, idDepth, 0 };
   const float farthest = 0; // depth is reversed
+  const bool part = this->Width != this->AllocatedWidth || this->Height != this->AllocatedHeight;
+  std::array<GLint, 4> scissor; // VTK remembers what it set
+  if (part)
+  {
+    glGetIntegerv(GL_SCISSOR_BOX, scissor.data());
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, this->Width, this->Height);
+  }
   glClearBufferfv(GL_COLOR, 0, color.data());
   glClearBufferfv(GL_COLOR, 1, nothing);
   glClearBufferfv(GL_DEPTH, 0, &farthest);
+  if (part)
+  {
+    glDisable(GL_SCISSOR_TEST);
+    glScissor(scissor[0], scissor[1], scissor[2], scissor[3]);
+  }
 }
 
 void RasterTarget::copyDepthFrom(const RasterTarget& other)

@@ -18,6 +18,7 @@ public:
   RasterTarget(const RasterTarget&) = delete;
   RasterTarget& operator=(const RasterTarget&) = delete;
 
+  /// Textures that are large enough are kept: pieces of a picture differ in size, and new textures are dear to clear.
   /// Throws MachineError when OpenGL refuses.
   void resize(int width, int height);
   int width() const { return this->Width; }
@@ -36,10 +37,13 @@ public:
   unsigned int idTexture() const { return this->Textures[1]; }
 
 private:
+  void allocate(int width, int height);
   void release();
   bool WithDepth;
   int Width = 0;
   int Height = 0;
+  int AllocatedWidth = 0; // of the textures
+  int AllocatedHeight = 0;
   unsigned int Framebuffer = 0;
   std::array<unsigned int, 3> Textures{}; // colour, ids, depth
 };
