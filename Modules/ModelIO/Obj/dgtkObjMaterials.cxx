@@ -7,6 +7,7 @@
 #include "dgtkObjStatements.h"
 #include "dgtkTextLines.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -18,23 +19,29 @@ namespace
 namespace fs = std::filesystem;
 constexpr std::uint64_t largestLibrary = std::uint64_t(1) << 26;
 
-/// What a library does not say.
-Material unsaid(const std::string& name)
-{
-  Material material;
-  material.name = name;
-  material.ambient = { 0, 0, 0 };
-  material.diffuse = { 0.6, 0.6, 0.6 };
-  return material;
-}
-
 /// The next word, which stays to be read.
 std::string_view ahead(ObjStatements& statements)
 {
   const std::string_view rest = statements.rest();
   return rest.substr(0, rest.find_first_of(" \t"));
 }
+
+std::string lowerCase(std::string_view word)
+{
+  std::string lower(word);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return lower;
+}
 } // namespace
+
+ObjMaterials::Entry ObjMaterials::unsaid(const std::string& name)
+{
+  Entry entry;
+  entry.material.name = name;
+  entry.material.ambient = { 0, 0, 0 };
+  entry.material.diffuse = { 0.6, 0.6, 0.6 };
+  return entry;
+}
 
 /// The name of a picture comes behind options such as `-s 1 1 1`.
 ObjMaterials::Picture ObjMaterials::readPicture(ObjStatements& statements)
@@ -126,7 +133,7 @@ void ObjMaterials::readLibrary(const std::string& path)
     if (statements.keyword() == "newmtl")
     {
       const std::string name(statements.rest());
-      const auto [added, isNew] = this->Entries.try_emplace(name, Entry{ unsaid(name), {}, {} });
+      const auto [added, isNew] = this->Entries.try_emplace(name, unsaid(name));
       entry = isNew ? &added->second : nullptr; // the first one of a name counts
       this->Builder.model().declaredMaterials += isNew ? 1 : 0;
     }
@@ -167,13 +174,34 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
     statements.number(value);
     material.opacity = keyword == "d" ? value : 1 - value;
   }
-  else if (keyword == "map_Kd")
+  else if (keyword == "Pm" || keyword == "Pr")
   {
-    entry.picture = readPicture(statements);
+    Material::Physical& physical = material.physical ? *material.physical : material.physical.emplace();
+    double& value = keyword == "Pm" ? physical.metallic : physical.roughness;
+    statements.number(value);
+    value = std::clamp(value, 0.0, 1.0);
   }
-  else if (keyword == "map_d")
+  else
   {
-    entry.mask = readPicture(statements);
+    this->readPicture(statements, entry);
+  }
+}
+
+/// Their names are written in both cases.
+void ObjMaterials::readPicture(ObjStatements& statements, Entry& entry)
+{
+  static const std::map<std::string, Picture Entry::*> pictures{ { "map_kd", &Entry::picture },
+    { "map_d", &Entry::mask }, { "map_ke", &Entry::emission }, { "norm", &Entry::normals } };
+  static const std::set<std::string> others{ "bump", "disp", "decal", "refl" };
+  const std::string keyword = lowerCase(statements.keyword());
+  const auto picture = pictures.find(keyword);
+  if (picture != pictures.end())
+  {
+    entry.*picture->second = readPicture(statements);
+  }
+  else if ((keyword.rfind("map_", 0) == 0 && keyword != "map_ka" && keyword != "map_aat") || others.count(keyword) != 0)
+  {
+    this->Unread.insert(std::string(statements.keyword()));
   }
 }
 
@@ -195,13 +223,39 @@ int ObjMaterials::add(const Entry& entry)
   const bool isOwn = entry.mask.name == picture.name && entry.mask.value == MaskValue::Usual;
   alpha.mask = isOwn ? MaterialAlpha::none : this->Builder.addTexture(entry.mask.name, {}, {}, entry.mask.wrap);
   alpha.value = entry.mask.value;
-  const int made = this->Builder.addMaterial(material, alpha);
-  const Picture& placed = picture.name.empty() ? entry.mask : picture;
-  if (placed.scale != Picture().scale || placed.offset != Picture().offset)
+  material.normalMap = this->Builder.addTexture(entry.normals.name, {}, {}, entry.normals.wrap);
+  material.emissionMap = this->Builder.addTexture(entry.emission.name, {}, {}, entry.emission.wrap);
+  if (!entry.emission.name.empty() && material.emission.isZero())
   {
-    this->Moved[made] = placed;
+    material.emission = { 1, 1, 1 }; // a picture of it alone glows as it is
   }
+  const int made = this->Builder.addMaterial(material, alpha);
+  this->placePictures(entry, made);
   return made;
+}
+
+/// All lie where the first one does.
+void ObjMaterials::placePictures(const Entry& entry, int material)
+{
+  std::vector<const Picture*> named;
+  for (const Picture* picture : { &entry.picture, &entry.mask, &entry.emission, &entry.normals })
+  {
+    if (!picture->name.empty())
+    {
+      named.push_back(picture);
+    }
+  }
+  const auto liesApart = [](const Picture& picture, const Picture& from)
+  { return picture.scale != from.scale || picture.offset != from.offset; };
+  if (!named.empty() && liesApart(*named.front(), Picture()))
+  {
+    this->Moved[material] = *named.front();
+  }
+  if (std::any_of(named.begin(), named.end(), [&](const Picture* one) { return liesApart(*one, *named.front()); }))
+  {
+    this->Builder.warn("material " + dgtk::quoted(entry.material.name) +
+                       " has pictures in several places: all lie where the first does");
+  }
 }
 
 void ObjMaterials::place(int material, std::vector<Corner>& corners) const
@@ -231,14 +285,23 @@ int ObjMaterials::indexOf(const std::string& name)
   {
     this->Builder.warn("material " + dgtk::quoted(name) + " is not defined: drawn grey");
   }
-  const int index = this->add(
-    known != this->Entries.end() ? known->second : Entry{ unsaid(name.empty() ? "DefaultMaterial" : name), {}, {} });
+  const int index =
+    this->add(known != this->Entries.end() ? known->second : unsaid(name.empty() ? "DefaultMaterial" : name));
   this->Made[name] = index;
   return index;
 }
 
 void ObjMaterials::finish()
 {
+  if (!this->Unread.empty())
+  {
+    std::string names;
+    for (const std::string& name : this->Unread)
+    {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    this->Builder.warn("pictures of " + names + " are not drawn");
+  }
   this->Files.refuseOutside(this->Path);
   this->Builder.model().companions = this->Files.companions(this->Path);
   this->Builder.keep(this->Files.dependencies(), ModelContents::worthwhile);

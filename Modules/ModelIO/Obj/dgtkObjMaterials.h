@@ -30,7 +30,7 @@ public:
   void finish();
 
 private:
-  /// `map_Kd` or `map_d` of a material: scaled, then moved.
+  /// A picture of a material: scaled, then moved.
   struct Picture
   {
     std::string name;
@@ -45,13 +45,18 @@ private:
     Material material;
     Picture picture;
     Picture mask;
+    Picture emission;
+    Picture normals;
   };
+  static Entry unsaid(const std::string& name); ///< what a library does not say
   static Picture readPicture(class ObjStatements& statements);
 
   bool addLibrary(const std::string& name);
   void readLibrary(const std::string& path);
   void readStatement(class ObjStatements& statements, Entry& entry);
+  void readPicture(class ObjStatements& statements, Entry& entry);
   int add(const Entry& entry);
+  void placePictures(const Entry& entry, int material);
 
   std::string Path;
   ModelBuilder& Builder;
@@ -59,6 +64,7 @@ private:
   std::set<std::string> Read; ///< paths of libraries
   std::map<std::string, Entry> Entries;
   std::map<std::string, int> Made;
+  std::set<std::string> Unread; ///< statements of pictures
   std::map<int, Picture> Moved; ///< those that do not lie as the coordinates say, by material
 };
 

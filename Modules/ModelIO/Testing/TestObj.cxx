@@ -341,6 +341,44 @@ TEST(Obj, PicturesAreScaledAndMoved)
   EXPECT_EQ(read("-clamp off ")->textures.size(), 1u);
 }
 
+TEST(Obj, PicturesOfWhatGlowsAndOfNormals)
+{
+  ObjFolder folder;
+  const auto read = [&folder](const std::string& statements)
+  {
+    folder.write("a.mtl", "newmtl m\n" + statements);
+    folder.write("p.ppm", "P3 1 1 255 9 9 9\n");
+    folder.write("q.ppm", "P3 1 1 255 8 8 8\n");
+    return folder.read("mtllib a.mtl\nvt 0.5 0.25\n" + triangle + "usemtl m\nf 1/1 2/1 3/1\n");
+  };
+  const auto both = read("map_KD p.ppm\nKe 0.5 0 0\nmap_ke -clamp on q.ppm\nnorm q.ppm\nPm 0.25\nPr 2\nmap_Ka p.ppm\n");
+  EXPECT_THAT(both->warnings, ElementsAre());
+  const dgtk::Material& material = both->materials[0];
+  const auto nameOf = [&both](int texture) { return both->textures.at(std::size_t(texture)).name; };
+  EXPECT_EQ(nameOf(material.texture), "p.ppm");
+  EXPECT_EQ(nameOf(material.emissionMap), "q.ppm");
+  EXPECT_EQ(both->textures[std::size_t(material.emissionMap)].wrap[0], dgtk::TextureWrap::Clamp);
+  EXPECT_EQ(nameOf(material.normalMap), "q.ppm");
+  EXPECT_EQ(both->textures[std::size_t(material.normalMap)].wrap[0], dgtk::TextureWrap::Repeat);
+  EXPECT_EQ(material.emission, Eigen::Vector3d(0.5, 0, 0));
+  ASSERT_TRUE(material.physical);
+  EXPECT_EQ(material.physical->metallic, 0.25);
+  EXPECT_EQ(material.physical->roughness, 1) << "at most";
+  EXPECT_FALSE(material.physical->wanted);
+
+  const auto glow = read("map_Ke -s 2 4 1 p.ppm\n");
+  EXPECT_EQ(glow->materials[0].emission, Eigen::Vector3d(1, 1, 1)) << "nothing else is said";
+  EXPECT_EQ(Eigen::Vector2d(glow->uvs.at(glow->triangles[0][0])), Eigen::Vector2d(1, 1)) << "where its picture lies";
+  const auto apart = read("norm -s 2 2 2 q.ppm\nmap_Kd -o 0.25 p.ppm\n");
+  EXPECT_THAT(
+    apart->warnings, ElementsAre("material 'm' has pictures in several places: all lie where the first does"));
+  EXPECT_EQ(Eigen::Vector2d(apart->uvs.at(apart->triangles[0][0])), Eigen::Vector2d(0.75, 0.25));
+  EXPECT_THAT(read("norm -s 2 2 2 q.ppm\nmap_Ke -s 2 2 p.ppm\n")->warnings, ElementsAre());
+  EXPECT_THAT(
+    read("map_Bump -bm 2 p.ppm\nbump p.ppm\nmap_Ks q.ppm\nmap_Kd p.ppm\nrefl q.ppm\nmap_Bump p.ppm\n")->warnings,
+    ElementsAre("pictures of bump, map_Bump, map_Ks, refl are not drawn"));
+}
+
 TEST(Obj, LibrariesByTheirNames)
 {
   ObjFolder folder;
