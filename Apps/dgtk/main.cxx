@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkModelCache.h"
 #include "dgtkRenderGLCalls.h"
+#include "dgtkSystem.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
 
@@ -16,7 +17,6 @@
 #include <new>
 #include <system_error>
 
-#include <malloc.h>
 #include <signal.h>
 
 namespace
@@ -121,15 +121,6 @@ void dgtk::app::print(const std::string& text)
 namespace
 {
 char** processArguments = nullptr;
-
-/// Bands of pictures are taken and given back all the time: memory that the system takes back in between costs a third
-/// of a frame's exact layers in page faults.
-void keepFreedMemory()
-{
-  constexpr int mebibyte = 1 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
-  ::mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
-}
 }
 
 void dgtk::app::prepareGL(const std::string& backend, int threads)
@@ -140,7 +131,7 @@ void dgtk::app::prepareGL(const std::string& backend, int threads)
 int main(int argc, char** argv)
 {
   processArguments = argv;
-  keepFreedMemory();
+  dgtk::prepareHeap();
   ::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit of `ulimit -f` is an error of writing, also in helpers
   try
   {

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <thread>
 
+#include <malloc.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 namespace dgtk
@@ -18,6 +21,22 @@ namespace dgtk
 namespace fs = std::filesystem;
 
 int machineThreads(int most) { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most); }
+
+bool prepareHeap()
+{
+  constexpr int mebibyte = 1 << 20;
+  constexpr std::uintptr_t largePage = 2 * mebibyte;
+  ::mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
+  ::mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
+  ::mallopt(M_TOP_PAD, 192 * mebibyte);
+  const auto heapEnd = [] { return reinterpret_cast<std::uintptr_t>(::sbrk(0)); };
+  const std::uintptr_t begin = (heapEnd() + largePage - 1) / largePage * largePage;
+  void* volatile grown = std::malloc(mebibyte); // more than a heap begins with
+  std::free(grown);
+  ::mallopt(M_TOP_PAD, mebibyte / 8); // as it was
+  const std::uintptr_t end = heapEnd();
+  return end > begin && ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE) == 0;
+}
 
 bool isProgram(const std::string& path)
 {

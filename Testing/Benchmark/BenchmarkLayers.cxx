@@ -12,6 +12,7 @@
 #include "Measure.h"
 
 #include "dgtkGenerator.h"
+#include "dgtkSystem.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -88,6 +89,7 @@ std::vector<Row> pixelRows()
 // Frame 0 is not rendered, nor is the scene's last: what is rendered has a frame before and one after.
 double render(const Settings& s, const Row& row, Size size, int frames)
 {
+  prepareHeap(); // as `dgtk` does
   GeneratorRequest request;
   request.scene = s.scenePath;
   request.folder = s.folder + "/out";

@@ -15,6 +15,7 @@
 #include "dgtkLayerWriter.h"
 #include "dgtkRaySource.h"
 #include "dgtkStage.h"
+#include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
@@ -132,6 +133,7 @@ void emptyFiles(const std::string& folder)
 double product(const Settings& s, const std::vector<std::string>& layers, const std::string& engine,
   const std::string& renderer = "ray", const std::string& scene = "")
 {
+  prepareHeap(); // as `dgtk` does
   GeneratorRequest request;
   request.scene = scene.empty() ? s.scenePath : scene;
   request.width = s.width;
