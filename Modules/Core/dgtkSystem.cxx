@@ -13,6 +13,7 @@
 
 #include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace dgtk
@@ -28,6 +29,11 @@ bool prepareHeap()
   constexpr std::uintptr_t largePage = 2 * mebibyte;
   ::mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
   ::mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
+  struct rlimit addresses = {};
+  if (::getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur != RLIM_INFINITY)
+  {
+    return false; // what is reserved here would be missed elsewhere
+  }
   ::mallopt(M_TOP_PAD, 192 * mebibyte);
   const auto heapEnd = [] { return reinterpret_cast<std::uintptr_t>(::sbrk(0)); };
   const std::uintptr_t begin = (heapEnd() + largePage - 1) / largePage * largePage;

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
+
 using namespace dgtk;
 using namespace dgtk::test;
 namespace fs = std::filesystem;
@@ -66,6 +68,17 @@ TEST(System, TheHeapHasLargePages)
 #endif
   GTEST_FLAG_SET(death_test_style, "threadsafe"); // a process whose heap is new
   EXPECT_EXIT(std::_Exit(prepareAndLook()), testing::ExitedWithCode(expected), "");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_EXIT(
+    {
+      struct rlimit limit = {};
+      ::getrlimit(RLIMIT_AS, &limit);
+      limit.rlim_cur = rlim_t(1) << 30;
+      ::setrlimit(RLIMIT_AS, &limit);
+      std::_Exit(prepareAndLook());
+    },
+    testing::ExitedWithCode(2), "");
+#endif
 }
 
 TEST(System, ProgramsOnThePath)
