@@ -3,6 +3,7 @@
 #include "dgtkError.h"
 #include "dgtkMainWindow.h"
 #include "dgtkModelCache.h"
+#include "dgtkSystem.h"
 
 #include <QApplication>
 #include <QIcon>
@@ -84,6 +85,7 @@ int main(int argc, char** argv)
       return 0;
     }
   }
+  dgtk::prepareHeap();
   dgtk::MainWindow::prepareApplication();
   QApplication application(argc, argv);
   dgtk::MainWindow::setupApplication();

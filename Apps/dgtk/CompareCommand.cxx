@@ -142,7 +142,7 @@ int runCompare(const Arguments& arguments)
   {
     if (!std::filesystem::exists(*path, code))
     {
-      throw InputError(*path, 0, "does not exist");
+      throw InputError(*path, "does not exist");
     }
   }
   const bool folders = std::filesystem::is_directory(a, code);

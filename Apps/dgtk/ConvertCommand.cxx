@@ -30,7 +30,7 @@ std::size_t cameraOf(const Stage& stage, const Arguments& arguments)
   const std::vector<std::string> names = stage.cameraNames();
   if (names.empty())
   {
-    throw InputError(stage.description().title(), 0, "has no camera", "one for the POV-Ray scene");
+    throw InputError(stage.description().title(), "has no camera", "one for the POV-Ray scene");
   }
   if (!arguments.has("--camera"))
   {

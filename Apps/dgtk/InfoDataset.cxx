@@ -28,9 +28,9 @@ void requireDataset(const std::string& folder)
   }
   if (std::filesystem::is_directory(folder, code) && folderContents(folder, "") == FolderContents::UnfinishedOther)
   {
-    throw InputError(folder, 0, "holds an unfinished run: the same dgtk render command with --resume completes it");
+    throw InputError(folder, "holds an unfinished run: the same dgtk render command with --resume completes it");
   }
-  throw InputError(folder, 0, "is not a dataset", "a folder with manifest.json");
+  throw InputError(folder, "is not a dataset", "a folder with manifest.json");
 }
 
 namespace

@@ -80,7 +80,7 @@ CameraRecord readCameraFile(const std::string& path)
   const Eigen::Matrix3d error = camera.R * camera.R.transpose() - Eigen::Matrix3d::Identity();
   if (error.cwiseAbs().maxCoeff() > 1e-6 || camera.R.row(0).cross(camera.R.row(1)).dot(camera.R.row(2)) < 0)
   {
-    throw InputError(path, 0, "R is not a rotation");
+    throw InputError(path, "R is not a rotation");
   }
   return camera;
 }
@@ -100,7 +100,7 @@ View viewOf(const CameraRecord& camera, const std::string& file)
   }
   catch (const UsageError& error)
   {
-    throw InputError(file, 0, "camera " + quoted(camera.name) + ": " + error.what());
+    throw InputError(file, "camera " + quoted(camera.name) + ": " + error.what());
   }
   if (!view.model)
   {
@@ -222,7 +222,7 @@ int runWarp(const Arguments& arguments)
   const View from = viewOf(find(cameras, source.camera, source.frame, source.cameras), source.cameras);
   if (from.model->width() != file.width() || from.model->height() != file.height())
   {
-    throw InputError(source.path, 0, "has another size than its camera",
+    throw InputError(source.path, "has another size than its camera",
       std::to_string(from.model->width()) + " x " + std::to_string(from.model->height()),
       std::to_string(file.width()) + " x " + std::to_string(file.height()));
   }

@@ -34,7 +34,7 @@ struct Header
 
 [[noreturn]] void fail(const std::string& path, const std::string& found)
 {
-  throw InputError(path, 0, "is no table of rays",
+  throw InputError(path, "is no table of rays",
     "a NumPy array of float32 or float64, height x width x 3 (directions) or x 6 (origins, directions), or one more "
     "(times in frames), 2 x 2 at least",
     found);

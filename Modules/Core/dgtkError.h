@@ -52,13 +52,18 @@ public:
   }
 };
 
-/// Input that cannot be used. The text is `FILE:LINE: what (expected E, found F)`; LINE is left out when
-/// `line` < 1, the parenthesis when both `expected` and `found` are empty.
+/// Input that cannot be used. The text is `FILE:LINE: what (expected E, found F)`; LINE is left out when there is none,
+/// or `line` < 1, the parenthesis when both `expected` and `found` are empty.
 class DGTKCORE_EXPORT InputError : public Error
 {
 public:
   InputError(const std::string& file, long line, const std::string& what, const std::string& expected = {},
     const std::string& found = {});
+  InputError(
+    const std::string& file, const std::string& what, const std::string& expected = {}, const std::string& found = {})
+    : InputError(file, 0L, what, expected, found)
+  {
+  }
   const std::string& file() const noexcept { return this->File; }
   long line() const noexcept { return this->Line; }
 

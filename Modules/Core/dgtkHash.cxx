@@ -64,7 +64,7 @@ std::string Sha256::ofFile(const std::string& path)
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file)
   {
-    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+    throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
   }
   Sha256 hash;
   std::array<char, 1 << 16> buffer; // not cleared: many files are small
@@ -74,7 +74,7 @@ std::string Sha256::ofFile(const std::string& path)
   }
   if (std::ferror(file.get()))
   {
-    throw InputError(path, 0, "cannot be read to its end");
+    throw InputError(path, "cannot be read to its end");
   }
   return hash.hex();
 }

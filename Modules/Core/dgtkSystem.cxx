@@ -29,17 +29,19 @@ bool prepareHeap()
   constexpr std::uintptr_t largePage = 2 * mebibyte;
   ::mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
   ::mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
-  struct rlimit addresses = {};
-  if (::getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur != RLIM_INFINITY)
+  for (const auto kind : { RLIMIT_AS, RLIMIT_DATA })
   {
-    return false; // what is reserved here would be missed elsewhere
+    struct rlimit limit = {};
+    if (::getrlimit(kind, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
+    {
+      return false; // what is reserved here would be missed elsewhere
+    }
   }
-  ::mallopt(M_TOP_PAD, 192 * mebibyte);
+  ::mallopt(M_TOP_PAD, 192 * mebibyte); // stays, so that it is not given back when much is free
   const auto heapEnd = [] { return reinterpret_cast<std::uintptr_t>(::sbrk(0)); };
   const std::uintptr_t begin = (heapEnd() + largePage - 1) / largePage * largePage;
   void* volatile grown = std::malloc(mebibyte); // more than a heap begins with
   std::free(grown);
-  ::mallopt(M_TOP_PAD, mebibyte / 8); // as it was
   const std::uintptr_t end = heapEnd();
   return end > begin && ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE) == 0;
 }

@@ -19,10 +19,10 @@ DGTKCORE_EXPORT bool isProgram(const std::string& path);
 /// it.
 DGTKCORE_EXPORT std::string programOnPath(const std::string& name);
 
-/// For programs, at their start (a library must not decide it): memory that is freed is kept for what comes, and the
-/// first 192 MiB of the heap are of large pages where the system has them, because small ones that come and go cost up
-/// to a third of a run's processor time on virtual machines. False when the system has none, when another allocator is
-/// used, or addresses are limited (`ulimit -v`).
+/// For programs, once at their start (a library must not decide it): memory that is freed is kept for what comes, and
+/// the first 192 MiB of the heap are of large pages, because memory that comes and goes page by page costs a seventh of
+/// a run's processor time and more on virtual machines. False when the system has no large pages, another allocator is
+/// in use, or memory is limited (`ulimit -v`, `-d`).
 DGTKCORE_EXPORT bool prepareHeap();
 
 /// A folder among the system's temporary ones, made when it is first asked for and gone with its owner.

@@ -159,7 +159,7 @@ std::set<std::string> filesOf(const std::string& folder)
   }
   if (code)
   {
-    throw InputError(folder, 0, "cannot be read: " + code.message());
+    throw InputError(folder, "cannot be read: " + code.message());
   }
   return names;
 }

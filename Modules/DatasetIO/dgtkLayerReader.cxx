@@ -22,12 +22,12 @@ InputFile::InputFile(const std::string& path)
   struct stat info = {};
   if (this->Descriptor < 0 || ::fstat(this->Descriptor, &info) != 0)
   {
-    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+    throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
   }
   if (!S_ISREG(info.st_mode))
   {
     ::close(this->Descriptor);
-    throw InputError(path, 0, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
+    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
   }
   this->Size = static_cast<std::uint64_t>(info.st_size);
 }
@@ -68,7 +68,7 @@ std::string InputFile::head(std::size_t bytes) const
 void InputFile::fail(
   std::uint64_t offset, const std::string& what, const std::string& expected, const std::string& found) const
 {
-  throw InputError(this->Path, 0, "offset " + std::to_string(offset) + ": " + what, expected, found);
+  throw InputError(this->Path, "offset " + std::to_string(offset) + ": " + what, expected, found);
 }
 
 void checkImageSize(const InputFile& file, std::uint64_t offset, std::int64_t width, std::int64_t height)
@@ -117,7 +117,7 @@ std::unique_ptr<RowReader> openLayerFile(const std::string& path, DepthMatrices*
   std::unique_ptr<RowReader> reader = openLayerTable(path, matrices);
   if (reader->info().height == 0)
   {
-    throw InputError(path, 0, "is an image without rows");
+    throw InputError(path, "is an image without rows");
   }
   return reader;
 }
@@ -148,7 +148,7 @@ ImageData readLayerFile(const std::string& path, std::uint64_t limit)
   image.info = reader->info();
   if (image.info.pixelBytes() > limit)
   {
-    throw InputError(path, 0, "is too large to be read at once", "at most " + std::to_string(limit) + " bytes",
+    throw InputError(path, "is too large to be read at once", "at most " + std::to_string(limit) + " bytes",
       std::to_string(image.info.pixelBytes()) + " bytes");
   }
   image.pixels = reader->read(image.info.height);

@@ -304,7 +304,7 @@ DatasetFile DatasetView::listed(const std::string& file) const
   const std::optional<std::uint32_t> number = this->Files->find(file);
   if (!number)
   {
-    throw InputError(this->Folder, 0, "the manifest does not list " + quoted(file));
+    throw InputError(this->Folder, "the manifest does not list " + quoted(file));
   }
   return this->describedFile(*number);
 }
@@ -315,7 +315,7 @@ std::string DatasetView::bytesOf(const std::string& file) const
   std::string bytes = readFile(source);
   if (Sha256::of(bytes) != this->listed(file).sha256)
   {
-    throw InputError(source, 0, "is not the file that the manifest lists: its hash differs");
+    throw InputError(source, "is not the file that the manifest lists: its hash differs");
   }
   return bytes;
 }
@@ -326,7 +326,7 @@ std::unique_ptr<RowReader> DatasetView::open(
   const std::string name = this->file(shot, layer, extensions);
   if (name.empty())
   {
-    throw InputError(this->Folder, 0,
+    throw InputError(this->Folder,
       "camera " + quoted(shot.name()) + " has no file of layer " + layer + " at frame " + std::to_string(shot.frame()));
   }
   return openLayerFile(this->pathOf(name));
@@ -349,7 +349,7 @@ std::string documentOf(const DatasetView& dataset, const DatasetShot& shot, cons
   const std::string name = dataset.file(shot, layer, { "json" });
   if (name.empty())
   {
-    throw InputError(dataset.folder(), 0,
+    throw InputError(dataset.folder(),
       "camera " + quoted(shot.name()) + " has no file of layer " + layer + " at frame " + std::to_string(shot.frame()));
   }
   return dataset.pathOf(name);

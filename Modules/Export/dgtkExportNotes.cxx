@@ -213,10 +213,7 @@ ExportNotes::Place ExportNotes::placeOf(std::size_t item) const
   return { this->Places[item] + sizeof head, head[1] };
 }
 
-void ExportNotes::failDamaged() const
-{
-  throw InputError(this->Holder.pathOf(notesName()), 0, "is damaged; start over");
-}
+void ExportNotes::failDamaged() const { throw InputError(this->Holder.pathOf(notesName()), "is damaged; start over"); }
 
 ItemRecord ExportNotes::read(std::size_t item) const
 {

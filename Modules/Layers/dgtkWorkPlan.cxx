@@ -70,7 +70,7 @@ std::vector<std::size_t> resolveCameras(const std::vector<std::string>& asked, c
 {
   if (scene.cameras.empty())
   {
-    throw InputError(scene.file, 0, "the scene has no camera");
+    throw InputError(scene.file, "the scene has no camera");
   }
   std::vector<std::string> names;
   for (const CameraDescription& camera : scene.cameras)

@@ -29,7 +29,7 @@ void requireSame(const dgtk::SceneDescription& loaded, const std::string& file)
   const dgtk::SceneDescription now = dgtk::readScene(file);
   if (toJson(now, now.folder) != toJson(loaded, loaded.folder))
   {
-    throw dgtk::InputError(file, 0, "has changed since the scene was loaded");
+    throw dgtk::InputError(file, "has changed since the scene was loaded");
   }
 }
 } // namespace

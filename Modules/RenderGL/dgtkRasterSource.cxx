@@ -148,7 +148,7 @@ void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int sampl
     this->Scene.prepareLight(this->ClipControl);
   }
   target.resize(rect.width, rect.height);
-  // Targets are cleared whole: VTK's state begins with a scissor of the window's size.
+  // Off for clear() and copyDepthFrom(): VTK's state begins with a scissor of the window's size.
   vtkOpenGLState* state = this->Window->GetState();
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

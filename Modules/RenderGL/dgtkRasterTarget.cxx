@@ -91,9 +91,9 @@ void RasterTarget::clear(const std::array<float, 4>& color, float idDepth)
 {
   const float nothing[4] = { 0, 0, idDepth, 0 };
   const float farthest = 0; // depth is reversed
-  const bool part = this->Width != this->AllocatedWidth || this->Height != this->AllocatedHeight;
-  std::array<GLint, 4> scissor; // VTK remembers what it set
-  if (part)
+  const bool isPart = this->Width != this->AllocatedWidth || this->Height != this->AllocatedHeight;
+  std::array<GLint, 4> scissor{};
+  if (isPart)
   {
     glGetIntegerv(GL_SCISSOR_BOX, scissor.data());
     glEnable(GL_SCISSOR_TEST);
@@ -102,9 +102,10 @@ void RasterTarget::clear(const std::array<float, 4>& color, float idDepth)
   glClearBufferfv(GL_COLOR, 0, color.data());
   glClearBufferfv(GL_COLOR, 1, nothing);
   glClearBufferfv(GL_DEPTH, 0, &farthest);
-  if (part)
+  if (isPart)
   {
     glDisable(GL_SCISSOR_TEST);
+    // VTK remembers what it set, and would not set it again.
     glScissor(scissor[0], scissor[1], scissor[2], scissor[3]);
   }
 }

@@ -18,7 +18,8 @@ public:
   RasterTarget(const RasterTarget&) = delete;
   RasterTarget& operator=(const RasterTarget&) = delete;
 
-  /// Textures that are large enough are kept: pieces of a picture differ in size, and new textures are dear to clear.
+  /// Textures that are large enough in both directions are kept: pieces of a picture differ in size, and new textures
+  /// are dear to clear.
   /// Throws MachineError when OpenGL refuses.
   void resize(int width, int height);
   int width() const { return this->Width; }
@@ -26,6 +27,7 @@ public:
 
   /// Binds it, with the outputs that are wanted.
   void bind(bool color, bool ids);
+  /// Of all pixels; the scissor test must be off, and is so afterwards.
   void clear(const std::array<float, 4>& color, float idDepth = 0);
   void copyDepthFrom(const RasterTarget& other);
 

@@ -44,9 +44,9 @@ std::vector<std::string> scenesIn(const std::string& path)
 {
   if (fs::is_directory(folder) && folderContents(folder, "") == FolderContents::UnfinishedOther)
   {
-    throw InputError(folder, 0, "holds an unfinished run: render it to its end");
+    throw InputError(folder, "holds an unfinished run: render it to its end");
   }
-  throw InputError(folder, 0, "is not a dataset", "a folder with manifest.json, or with folders that have one");
+  throw InputError(folder, "is not a dataset", "a folder with manifest.json, or with folders that have one");
 }
 } // namespace
 
@@ -102,9 +102,8 @@ ReportSource::ReportSource(const ReportRequest& request)
   }
   if (this->scenes.empty())
   {
-    throw InputError(request.dataset, 0,
-      "none of its " + std::to_string(names.size()) +
-        " scenes can be read: " + (this->notes.empty() ? "" : this->notes.front()));
+    throw InputError(request.dataset, "none of its " + std::to_string(names.size()) +
+                                        " scenes can be read: " + (this->notes.empty() ? "" : this->notes.front()));
   }
   for (std::size_t scene = 0; scene < this->scenes.size(); ++scene)
   {

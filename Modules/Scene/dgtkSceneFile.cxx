@@ -37,7 +37,7 @@ SceneDescription readScene(const std::string& path)
   {
     return readJsonScene(path, folderOf(path), contents);
   }
-  throw InputError(path, 0, "is no scene", "a name in .scene or .json", extension.empty() ? "none" : '.' + extension);
+  throw InputError(path, "is no scene", "a name in .scene or .json", extension.empty() ? "none" : '.' + extension);
 }
 
 namespace

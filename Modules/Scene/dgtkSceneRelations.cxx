@@ -161,7 +161,7 @@ private:
     const double named = metresOfUnit(this->Scene.units);
     if (said > 0 && named > 0 && std::abs(said / named - 1) > tolerance)
     {
-      throw InputError(this->Scene.title(), 0, "metresPerUnit contradicts units " + quoted(this->Scene.units),
+      throw InputError(this->Scene.title(), "metresPerUnit contradicts units " + quoted(this->Scene.units),
         plainNumber(named) + ", or units of another name", plainNumber(said));
     }
   }
@@ -358,7 +358,7 @@ private:
     if (!good || next[0] != this->Scene.objects.size() || next[1] != this->Scene.lights.size() ||
         next[2] != this->Scene.cameras.size())
     {
-      throw InputError(this->Scene.title(), 0, "order does not list every object, light and camera once, in turn");
+      throw InputError(this->Scene.title(), "order does not list every object, light and camera once, in turn");
     }
   }
 

@@ -31,7 +31,7 @@ void checkName(const std::string& path)
     [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
   if (extension != ".pov")
   {
-    throw InputError(path, 0, "is no POV-Ray scene", "a name in .pov", extension.empty() ? "none" : extension);
+    throw InputError(path, "is no POV-Ray scene", "a name in .pov", extension.empty() ? "none" : extension);
   }
 }
 
@@ -40,7 +40,7 @@ void checkCount(const SceneState& state, const std::string& path)
   if (state.objects() > mostIds)
   {
     throw InputError(
-      path, 0, "cannot hold as many objects", "at most " + std::to_string(mostIds), std::to_string(state.objects()));
+      path, "cannot hold as many objects", "at most " + std::to_string(mostIds), std::to_string(state.objects()));
   }
 }
 

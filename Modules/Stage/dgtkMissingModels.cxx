@@ -66,7 +66,7 @@ void requireModels(const SceneDescription& scene)
   {
     names += (names.empty() ? "" : ", ") + one.path + lineOf(scene, one);
   }
-  throw InputError(scene.title(), 0, std::to_string(missing.size()) + " model files are missing: " + names);
+  throw InputError(scene.title(), std::to_string(missing.size()) + " model files are missing: " + names);
 }
 
 } // namespace dgtk

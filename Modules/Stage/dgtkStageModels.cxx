@@ -115,7 +115,7 @@ void StageModels::readEnvironment()
   }
   if (!made->image)
   {
-    throw InputError(this->Scene.title(), 0, "environment: " + quoted(from.image) + ' ' + problem);
+    throw InputError(this->Scene.title(), "environment: " + quoted(from.image) + ' ' + problem);
   }
   this->addFile(path);
   made->intensity = from.intensity;

@@ -154,7 +154,7 @@ std::vector<Pair> pairsOf(Picture& picture)
     if (!eye)
     {
       const std::vector<std::string> suffixes = dataset.suffixes(picture.camera(), layer, picture.frame());
-      throw InputError(dataset.absolute(dataset.find(picture.camera(), layer, picture.frame(), suffixes)), 0,
+      throw InputError(dataset.absolute(dataset.find(picture.camera(), layer, picture.frame(), suffixes)),
         "there is no other view for layer " + quoted(layer) + " in the scene");
     }
     pair->timed = dataset.timedSight(*eye, pair->frame);

@@ -10,7 +10,6 @@
 #include "dgtkRenderStatus.h"
 #include "dgtkSceneFiles.h"
 #include "dgtkSceneViews.h"
-#include "dgtkSystem.h"
 #include "dgtkWindowSize.h"
 
 #include <QAction>
@@ -43,7 +42,6 @@ constexpr int statusTime = 5000; // milliseconds
 
 void MainWindow::prepareApplication()
 {
-  prepareHeap();
   QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
   format.setSamples(0);
   QSurfaceFormat::setDefaultFormat(format);

@@ -89,7 +89,6 @@ std::vector<Row> pixelRows()
 // Frame 0 is not rendered, nor is the scene's last: what is rendered has a frame before and one after.
 double render(const Settings& s, const Row& row, Size size, int frames)
 {
-  prepareHeap(); // as `dgtk` does
   GeneratorRequest request;
   request.scene = s.scenePath;
   request.folder = s.folder + "/out";
@@ -115,6 +114,7 @@ bench::Measured perFrame(const Settings& s, const Row& row, Size size, int frame
   return bench::inChild(row.name,
     [&]
     {
+      prepareHeap(); // as `dgtk` does
       render(s, row, { 64, 64 }, 1);
       const double one = render(s, row, size, 1);
       if (frames == 1)

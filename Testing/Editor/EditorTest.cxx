@@ -5,6 +5,7 @@
 #include "dgtkMainWindow.h"
 #include "dgtkModelCache.h"
 #include "dgtkSceneDocument.h"
+#include "dgtkSystem.h"
 
 #include <QAbstractEventDispatcher>
 #include <QAction>
@@ -367,5 +368,6 @@ int main(int argc, char** argv)
     return 2;
   }
   argv[1] = argv[0];
+  dgtk::prepareHeap(); // as dgtk-editor does
   return row->second(argc - 1, argv + 1);
 }

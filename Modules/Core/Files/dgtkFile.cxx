@@ -26,16 +26,16 @@ std::string readFile(const std::string& path, std::uint64_t limit)
   struct stat info = {};
   if (!file || ::fstat(file.number(), &info) != 0)
   {
-    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+    throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
   }
   if (!S_ISREG(info.st_mode))
   {
-    throw InputError(path, 0, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
+    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
   }
   if (std::uint64_t(info.st_size) > limit)
   {
     throw InputError(
-      path, 0, "is too large", "at most " + std::to_string(limit) + " bytes", std::to_string(info.st_size) + " bytes");
+      path, "is too large", "at most " + std::to_string(limit) + " bytes", std::to_string(info.st_size) + " bytes");
   }
   std::string contents(static_cast<std::size_t>(info.st_size), '\0');
   std::size_t got = 0;
@@ -48,7 +48,7 @@ std::string readFile(const std::string& path, std::uint64_t limit)
     }
     if (n < 0)
     {
-      throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+      throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
     }
     if (n == 0)
     {

@@ -270,19 +270,19 @@ std::string Folder::fileAt(const std::string& name) const
   std::string path = this->pathOf(name);
   if (!isPlain(name))
   {
-    throw InputError(this->Path, 0, dgtk::quoted(name) + " leads out of the folder");
+    throw InputError(this->Path, dgtk::quoted(name) + " leads out of the folder");
   }
   switch (this->look(name))
   {
     case EntryKind::File:
       return path;
     case EntryKind::Nothing:
-      throw InputError(path, 0, "no such file");
+      throw InputError(path, "no such file");
     case EntryKind::Link:
     case EntryKind::Blocked:
-      throw InputError(path, 0, "is not read through a link");
+      throw InputError(path, "is not read through a link");
     default:
-      throw InputError(path, 0, "is not a file");
+      throw InputError(path, "is not a file");
   }
 }
 

@@ -26,11 +26,11 @@ FileDescriptor opened(const std::string& path)
   struct stat info = {};
   if (!file || ::fstat(file.number(), &info) != 0)
   {
-    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+    throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
   }
   if (!S_ISREG(info.st_mode))
   {
-    throw InputError(path, 0, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
+    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
   }
   return file;
 }
@@ -44,7 +44,7 @@ std::size_t readAt(
     const ssize_t got = ::pread(file.number(), to + done, bytes - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno != EINTR)
     {
-      throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+      throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
     }
     if (got == 0)
     {

@@ -131,7 +131,7 @@ TEST(InputError, SaysWhereAndWhat)
 {
   EXPECT_STREQ(dgtk::InputError("a.ac", 3, "bad number", "a float", dgtk::quoted("x\n")).what(),
     "a.ac:3: bad number (expected a float, found 'x\\x0A')");
-  EXPECT_STREQ(dgtk::InputError("a.ac", 0, "is empty").what(), "a.ac: is empty");
+  EXPECT_STREQ(dgtk::InputError("a.ac", "is empty").what(), "a.ac: is empty");
 }
 
 TEST(ThreadPool, RunsEveryIndexOnceAlsoFromAJob)

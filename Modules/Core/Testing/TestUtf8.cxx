@@ -49,7 +49,7 @@ TEST(Utf8, ErrorsAreOneLineOfUtf8)
     "a\\xC2\\x85\xc2\xa0\\xE2\\x80\\xA8\\xE2\\x80\\xA9\xe2\x80\xaa");
   EXPECT_STREQ(InputError("caf\xe9\n.ac", 3, "is bad").what(), "caf\\xE9\\x0A.ac:3: is bad");
   EXPECT_STREQ(UsageError("x\xff").what(), "x\\xFF");
-  EXPECT_EQ(InputError("caf\xe9", 0, "x").file(), "caf\xe9");
+  EXPECT_EQ(InputError("caf\xe9", "x").file(), "caf\xe9");
   // a character is not cut
   EXPECT_EQ(quoted(std::string(39, 'a') + "\xc3\xa9"), "'" + std::string(39, 'a') + "...'");
   EXPECT_EQ(quoted(std::string(38, 'a') + "\xc3\xa9"), "'" + std::string(38, 'a') + "\xc3\xa9'");

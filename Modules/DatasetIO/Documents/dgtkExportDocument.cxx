@@ -142,7 +142,7 @@ std::pair<std::string, std::string> exportOwnHashes(const std::string& path)
   std::string end(std::min(size, tailBytes), '\0');
   if (!file.read(end.data(), std::streamsize(end.size())))
   {
-    throw InputError(path, 0, "cannot be read");
+    throw InputError(path, "cannot be read");
   }
   const std::string right = hash.hex();
   return { end == exportTail(right) ? right : end.rfind(tail, 0) == 0 ? "another one" : "none", right };

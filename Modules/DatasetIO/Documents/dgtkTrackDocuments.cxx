@@ -90,7 +90,7 @@ std::vector<TrackPlace> readTrackPlaces(const std::string& path, std::size_t poi
   const bool shaped = info.type == PixelType::Float64 && info.channels == 1 && info.width == numbersOfPlace;
   if (!shaped || std::size_t(info.height) != points)
   {
-    throw InputError(path, 0, "is not what it should be", std::to_string(points) + " x 3 float64",
+    throw InputError(path, "is not what it should be", std::to_string(points) + " x 3 float64",
       std::to_string(info.height) + " x " + std::to_string(info.width * info.channels) + ' ' + nameOf(info.type));
   }
   std::vector<TrackPlace> places;

@@ -94,7 +94,7 @@ void readJournal(const std::string& path, FolderRecords& records, const ForListe
   std::ifstream text(path, std::ios::binary);
   if (!text)
   {
-    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+    throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
   }
   if (text.peek() == std::ifstream::traits_type::eof())
   {

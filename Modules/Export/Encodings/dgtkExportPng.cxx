@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace dgtk
 {
@@ -177,12 +178,12 @@ void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot&
     [&](int y, unsigned char* row)
     {
       const Rows rows = reader->read(1);
-      std::uint32_t last = ~std::uint32_t(0); // neighbours are mostly of one object
+      std::optional<std::uint32_t> last; // neighbours are mostly of one object
       std::uint32_t code = 0;
       for (int x = 0; x < header.width; ++x)
       {
         const std::uint32_t id = idAt(rows, x, y);
-        if (id != last || x == 0)
+        if (id != last)
         {
           const auto found = codes.find(id);
           code = found == codes.end() ? 0 : found->second;

@@ -66,7 +66,7 @@ struct Values
     std::array<T, N> values;
     if (this->bytes.size() - this->at < sizeof(values))
     {
-      throw InputError(this->path, 0, "ends too early");
+      throw InputError(this->path, "ends too early");
     }
     std::memcpy(values.data(), this->bytes.data() + this->at, sizeof(values));
     this->at += sizeof(values);
@@ -88,7 +88,7 @@ ModelPly readModelPly(const std::string& path)
   const Header header = readHeader(stream);
   if (!stream)
   {
-    throw InputError(path, 0, "is no model of a dataset");
+    throw InputError(path, "is no model of a dataset");
   }
   ModelPly model;
   model.pictures = header.pictures;
@@ -114,7 +114,7 @@ ModelPly readModelPly(const std::string& path)
     {
       if (!triangle || corner >= header.vertices || model.textures.back() >= int(header.pictures.size()))
       {
-        throw InputError(path, 0, "has a face that is no triangle of its vertices");
+        throw InputError(path, "has a face that is no triangle of its vertices");
       }
     }
   }

@@ -137,7 +137,7 @@ private:
       const bool there = same != this->To.actors.end();
       if (there && same->whole != actor.whole && !haveSameCells(*same->whole, *actor.whole))
       {
-        throw InputError("VTK scene", 0, actor.name + " has other cells in the second view",
+        throw InputError("VTK scene", actor.name + " has other cells in the second view",
           "the same cells, whose points may move",
           std::to_string(same->whole->triangles()) + " triangles, not " + std::to_string(actor.whole->triangles()));
       }

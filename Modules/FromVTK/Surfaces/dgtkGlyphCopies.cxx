@@ -118,7 +118,7 @@ public:
       }
       if (first + inPart + shape.triangles() > std::numeric_limits<std::uint32_t>::max())
       {
-        throw InputError("VTK scene", 0, "has a glyph mapper with more triangles than there are numbers for",
+        throw InputError("VTK scene", "has a glyph mapper with more triangles than there are numbers for",
           "at most 4294967295", "more");
       }
       ModelCopy copy = shape.copy(place, glyph.color);

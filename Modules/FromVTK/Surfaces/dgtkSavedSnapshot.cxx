@@ -262,7 +262,7 @@ void refuseBorders(const FrozenView& view)
                                             : isLostBeyondBorder(*actor.model);
     if (isLost)
     {
-      throw InputError("VTK scene", 0, actor.name + " has a texture that does not repeat, which its files cannot say",
+      throw InputError("VTK scene", actor.name + " has a texture that does not repeat, which its files cannot say",
         "texture coordinates from 0 to 1, or a texture that repeats");
     }
   }

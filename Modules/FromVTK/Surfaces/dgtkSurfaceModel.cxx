@@ -136,7 +136,7 @@ public:
 private:
   [[noreturn]] static void fail(const std::string& what)
   {
-    throw InputError("VTK scene", 0, "has data that do not hold together: " + what);
+    throw InputError("VTK scene", "has data that do not hold together: " + what);
   }
 
   /// An array that has a tuple for each of so many, or null.

@@ -39,7 +39,7 @@ Eigen::Matrix4d matrixOf(const vtkMatrix4x4& from)
   return to;
 }
 
-[[noreturn]] void fail(const std::string& what) { throw InputError("VTK scene", 0, "its camera " + what); }
+[[noreturn]] void fail(const std::string& what) { throw InputError("VTK scene", "its camera " + what); }
 
 /// A camera that has the given image of the world.
 class Decomposition

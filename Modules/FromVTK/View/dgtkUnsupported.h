@@ -30,7 +30,7 @@ public:
   {
     if (!this->Lines.empty())
     {
-      throw InputError("VTK scene", 0, "has what is no surface, or cannot be honoured: " + joined(this->Lines));
+      throw InputError("VTK scene", "has what is no surface, or cannot be honoured: " + joined(this->Lines));
     }
   }
 

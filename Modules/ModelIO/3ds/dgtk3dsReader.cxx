@@ -478,12 +478,12 @@ ModelContents read3ds(const std::string& path, const ReadOptions& options)
   const std::string bytes = readFile(path);
   if (bytes.empty())
   {
-    throw InputError(path, 0, "is empty", "a 3DS file", "0 bytes");
+    throw InputError(path, "is empty", "a 3DS file", "0 bytes");
   }
   const ByteReader in(path, bytes);
   if (bytes.size() < chunkHeader || in.u16(0) != Main)
   {
-    throw InputError(path, 0, "is not a 3DS file", "a chunk 4D4D at its start");
+    throw InputError(path, "is not a 3DS file", "a chunk 4D4D at its start");
   }
   return Reader3ds(path, bytes, options).read();
 }

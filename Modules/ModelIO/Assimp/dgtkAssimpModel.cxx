@@ -77,7 +77,7 @@ public:
     }
     catch (const std::runtime_error& error)
     {
-      throw InputError(this->Path, 0, std::string("is damaged: ") + error.what());
+      throw InputError(this->Path, std::string("is damaged: ") + error.what());
     }
     this->Builder.model().companions = this->Scene->files;
     this->Builder.keep(this->Scene->dependencies, 0);
@@ -125,8 +125,7 @@ private:
         const std::uint64_t most = mostCorners + 2 * this->Scene->bytesRead;
         if (corners > most)
         {
-          throw InputError(
-            this->Path, 0, "repeats its meshes too often", "at most " + std::to_string(most) + " corners");
+          throw InputError(this->Path, "repeats its meshes too often", "at most " + std::to_string(most) + " corners");
         }
         PosedMesh posed{ static_cast<std::uint32_t>(n), m, {} };
         posed.vertices.resize(this->Scene->meshes[m].positions.size());

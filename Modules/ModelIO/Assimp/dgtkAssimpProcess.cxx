@@ -229,11 +229,10 @@ Answer askUntilAnswered(const std::string& path, const std::string& absolute, co
   const int signal = helper::signalOf(status, path);
   if (signal == SIGXCPU || signal == SIGKILL)
   {
-    throw InputError(path, 0, "is damaged, or too large: reading it took more processor time or memory than allowed");
+    throw InputError(path, "is damaged, or too large: reading it took more processor time or memory than allowed");
   }
-  throw InputError(path, 0,
-    "is damaged: its importer ended abnormally (" +
-      (signal ? helper::signalText(signal) : std::string("incomplete answer")) + ')');
+  throw InputError(path, "is damaged: its importer ended abnormally (" +
+                           (signal ? helper::signalText(signal) : std::string("incomplete answer")) + ')');
 }
 
 /// Bytes of the model. Throws InputError when it is no file that can be read.
@@ -243,16 +242,16 @@ std::uint64_t sizeOfModel(const std::string& path)
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status))
   {
-    throw InputError(path, 0, "no such file");
+    throw InputError(path, "no such file");
   }
   if (!fs::is_regular_file(status))
   {
-    throw InputError(path, 0, "is not a regular file");
+    throw InputError(path, "is not a regular file");
   }
   const std::uint64_t bytes = fs::file_size(path, code);
   if (code || bytes > largestModel)
   {
-    throw InputError(path, 0, "is too large", "at most " + std::to_string(largestModel) + " bytes");
+    throw InputError(path, "is too large", "at most " + std::to_string(largestModel) + " bytes");
   }
   return bytes;
 }

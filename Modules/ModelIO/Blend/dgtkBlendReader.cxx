@@ -89,9 +89,9 @@ void runBlender(const std::string& path, const std::string& blender, ScratchFold
   if (signal != 0 || WEXITSTATUS(status) != 0 || !fs::is_regular_file(own.path("model.glb"), code) ||
       !fs::is_regular_file(own.path("files"), code))
   {
-    throw InputError(path, 0,
-      "cannot be read by Blender (" + blender + "), which ended with " +
-        (signal != 0 ? helper::signalText(signal) : "code " + std::to_string(WEXITSTATUS(status))));
+    throw InputError(
+      path, "cannot be read by Blender (" + blender + "), which ended with " +
+              (signal != 0 ? helper::signalText(signal) : "code " + std::to_string(WEXITSTATUS(status))));
   }
 }
 } // namespace
@@ -102,12 +102,12 @@ ModelContents readBlend(const std::string& path, const ReadOptions& options)
   std::error_code code;
   if (!fs::is_regular_file(path, code))
   {
-    throw InputError(path, 0, fs::exists(path, code) ? "is not a regular file" : "no such file");
+    throw InputError(path, fs::exists(path, code) ? "is not a regular file" : "no such file");
   }
   const std::string blender = helper::installedProgram("blender", "DGTK_BLENDER");
   if (blender.empty())
   {
-    throw InputError(path, 0,
+    throw InputError(path,
       "Blender's own files are read by Blender, which is not installed: install it (DGTK_BLENDER can name it), or "
       "choose "
       "File > Export > glTF 2.0 in it and use the .glb file");
@@ -123,7 +123,7 @@ ModelContents readBlend(const std::string& path, const ReadOptions& options)
   {
     const std::string text = error.what();
     const std::size_t colon = text.find(": ");
-    throw InputError(path, 0, "what Blender makes of it " + text.substr(colon == std::string::npos ? 0 : colon + 2));
+    throw InputError(path, "what Blender makes of it " + text.substr(colon == std::string::npos ? 0 : colon + 2));
   }
   // Blender exports colours of vertices whether its materials use them or not
   std::vector<std::array<std::uint8_t, 4>>& colors = contents.model->colors;

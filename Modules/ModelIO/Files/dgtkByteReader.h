@@ -28,7 +28,7 @@ public:
   {
     if (offset > this->Bytes.size() || count > this->Bytes.size() - offset)
     {
-      throw InputError(this->Path, 0,
+      throw InputError(this->Path,
         std::string(what) + " at byte " + std::to_string(offset) + " run past the end of the file",
         std::to_string(count) + " bytes",
         std::to_string(offset > this->Bytes.size() ? 0 : this->Bytes.size() - offset));
@@ -37,7 +37,7 @@ public:
   [[noreturn]] void fail(std::uint64_t offset, const std::string& what, const std::string& expected = {},
     const std::string& found = {}) const
   {
-    throw InputError(this->Path, 0, what + " at byte " + std::to_string(offset), expected, found);
+    throw InputError(this->Path, what + " at byte " + std::to_string(offset), expected, found);
   }
 
   std::uint8_t u8(std::size_t offset) const

@@ -70,7 +70,7 @@ void ModelFiles::refuseOutside(const std::string& modelAsGiven) const
   if (!this->Outside.empty())
   {
     const std::string name = oneLine(this->Outside, this->Folder + '/');
-    throw InputError(modelAsGiven, 0, "names the file '" + name + "', which lies outside of the model's folder");
+    throw InputError(modelAsGiven, "names the file '" + name + "', which lies outside of the model's folder");
   }
 }
 

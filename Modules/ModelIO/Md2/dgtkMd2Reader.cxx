@@ -124,11 +124,11 @@ Header readHeader(const ByteReader& in, const std::string& path)
   if (in.size() < 8 || in.text(0, 4) != "IDP2")
   {
     throw InputError(
-      path, 0, "is not an MD2 file", "'IDP2' at its start", in.size() < 4 ? "a shorter file" : quoted(in.text(0, 4)));
+      path, "is not an MD2 file", "'IDP2' at its start", in.size() < 4 ? "a shorter file" : quoted(in.text(0, 4)));
   }
   if (in.i32(4) != 8)
   {
-    throw InputError(path, 0, "is an MD2 file of another version", "8", std::to_string(in.i32(4)));
+    throw InputError(path, "is an MD2 file of another version", "8", std::to_string(in.i32(4)));
   }
   in.need(0, md2Header, "the header");
   const auto field = [&in](std::size_t i) { return in.i32(8 + 4 * i); };

@@ -92,7 +92,7 @@ int ModelBuilder::addMaterial(const Material& material, const MaterialAlpha& alp
   std::vector<Material>& materials = this->model().materials;
   if (materials.size() >= mostMaterials)
   {
-    throw InputError(this->model().path, 0, "has too many materials", "at most " + std::to_string(mostMaterials));
+    throw InputError(this->model().path, "has too many materials", "at most " + std::to_string(mostMaterials));
   }
   materials.emplace_back();
   this->Contents.alpha.push_back(alpha);
@@ -206,7 +206,7 @@ std::uint32_t ModelBuilder::addVertex(const Eigen::Vector3d& position)
 {
   if (this->SourceVertices >= none)
   {
-    throw InputError(this->model().path, 0, "has too many vertices", "fewer than 4294967295");
+    throw InputError(this->model().path, "has too many vertices", "fewer than 4294967295");
   }
   this->Current->positions.push_back(position);
   return static_cast<std::uint32_t>(this->SourceVertices++);
@@ -274,7 +274,7 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
   const auto first = static_cast<std::uint32_t>(object.corners.size());
   if (object.corners.size() + count >= none)
   {
-    throw InputError(this->model().path, 0, "has too many surfaces in one object");
+    throw InputError(this->model().path, "has too many surfaces in one object");
   }
   this->addCorners(corners, count);
   object.cut.reserve(count - 2);

@@ -69,7 +69,7 @@ std::shared_ptr<const Model> readModel(const std::string& path, const ReadOption
       }
     }
   }
-  throw InputError(path, 0, "is not a model file that can be read", "one of " + knownExtensions(),
+  throw InputError(path, "is not a model file that can be read", "one of " + knownExtensions(),
     extension.empty() ? "no extension" : quoted("." + extension));
 }
 

@@ -64,7 +64,7 @@ std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eige
   std::vector<std::uint32_t> splitOf = splitCorners(object.corners, normals, base, cornerOf);
   if (base + cornerOf.size() >= noVertex || model.triangles.size() + object.triangles.size() >= noVertex)
   {
-    throw InputError(model.path, 0, "has too many triangles", "fewer than 4294967295 vertices");
+    throw InputError(model.path, "has too many triangles", "fewer than 4294967295 vertices");
   }
   makeRoom(this->Rest->positions, cornerOf.size());
   makeRoom(this->Rest->normals, cornerOf.size());

@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkModelFolder.h"
 #include "dgtkObjStatements.h"
+#include "dgtkText.h"
 #include "dgtkTextLines.h"
 
 #include <algorithm>
@@ -24,13 +25,6 @@ std::string_view ahead(ObjStatements& statements)
 {
   const std::string_view rest = statements.rest();
   return rest.substr(0, rest.find_first_of(" \t"));
-}
-
-std::string lowerCase(std::string_view word)
-{
-  std::string lower(word);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return lower;
 }
 } // namespace
 
@@ -179,7 +173,6 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
     Material::Physical& physical = material.physical ? *material.physical : material.physical.emplace();
     double& value = keyword == "Pm" ? physical.metallic : physical.roughness;
     statements.number(value);
-    value = std::clamp(value, 0.0, 1.0);
   }
   else
   {
@@ -187,21 +180,22 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
   }
 }
 
-/// Their names are written in both cases.
+/// Programs write these statements in upper and lower case alike.
 void ObjMaterials::readPicture(ObjStatements& statements, Entry& entry)
 {
   static const std::map<std::string, Picture Entry::*> pictures{ { "map_kd", &Entry::picture },
     { "map_d", &Entry::mask }, { "map_ke", &Entry::emission }, { "norm", &Entry::normals } };
   static const std::set<std::string> others{ "bump", "disp", "decal", "refl" };
-  const std::string keyword = lowerCase(statements.keyword());
+  static const std::set<std::string> same{ "map_ka", "map_aat" }; // the picture of map_Kd as a rule; a switch
+  const std::string keyword = lower(std::string(statements.keyword()));
   const auto picture = pictures.find(keyword);
   if (picture != pictures.end())
   {
     entry.*picture->second = readPicture(statements);
   }
-  else if ((keyword.rfind("map_", 0) == 0 && keyword != "map_ka" && keyword != "map_aat") || others.count(keyword) != 0)
+  else if ((keyword.rfind("map_", 0) == 0 || others.count(keyword) != 0) && same.count(keyword) == 0)
   {
-    this->Unread.insert(std::string(statements.keyword()));
+    entry.unread.insert(quoted(std::string(statements.keyword())));
   }
 }
 
@@ -225,10 +219,11 @@ int ObjMaterials::add(const Entry& entry)
   alpha.value = entry.mask.value;
   material.normalMap = this->Builder.addTexture(entry.normals.name, {}, {}, entry.normals.wrap);
   material.emissionMap = this->Builder.addTexture(entry.emission.name, {}, {}, entry.emission.wrap);
-  if (!entry.emission.name.empty() && material.emission.isZero())
+  if (material.emissionMap >= 0 && material.emission.isZero())
   {
     material.emission = { 1, 1, 1 }; // a picture of it alone glows as it is
   }
+  this->Unread.insert(entry.unread.begin(), entry.unread.end());
   const int made = this->Builder.addMaterial(material, alpha);
   this->placePictures(entry, made);
   return made;
@@ -295,12 +290,8 @@ void ObjMaterials::finish()
 {
   if (!this->Unread.empty())
   {
-    std::string names;
-    for (const std::string& name : this->Unread)
-    {
-      names += (names.empty() ? "" : ", ") + name;
-    }
-    this->Builder.warn("pictures of " + names + " are not drawn");
+    const std::vector<std::string> names(this->Unread.begin(), this->Unread.end());
+    this->Builder.warn("pictures of " + joined(names) + " are not drawn");
   }
   this->Files.refuseOutside(this->Path);
   this->Builder.model().companions = this->Files.companions(this->Path);

@@ -47,6 +47,7 @@ private:
     Picture mask;
     Picture emission;
     Picture normals;
+    std::set<std::string> unread; ///< statements of other pictures
   };
   static Entry unsaid(const std::string& name); ///< what a library does not say
   static Picture readPicture(class ObjStatements& statements);
@@ -64,7 +65,7 @@ private:
   std::set<std::string> Read; ///< paths of libraries
   std::map<std::string, Entry> Entries;
   std::map<std::string, int> Made;
-  std::set<std::string> Unread; ///< statements of pictures
+  std::set<std::string> Unread; ///< of the materials that are used
   std::map<int, Picture> Moved; ///< those that do not lie as the coordinates say, by material
 };
 

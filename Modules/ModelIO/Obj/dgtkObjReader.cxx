@@ -112,7 +112,7 @@ public:
     }
     if (!understood)
     {
-      throw InputError(this->Path, 0, "has nothing of a Wavefront OBJ file", "statements such as v and f", "none");
+      throw InputError(this->Path, "has nothing of a Wavefront OBJ file", "statements such as v and f", "none");
     }
     this->endObject();
     this->Materials.finish();

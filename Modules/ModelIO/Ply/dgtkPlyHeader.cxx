@@ -215,7 +215,7 @@ private:
       // the last number of a text needs no space after it
       if (element.count > 0 && (each == 0 || element.count > (left + 1) / each))
       {
-        throw InputError(this->Path, 0, "has fewer bytes than element " + quoted(element.name) + " needs",
+        throw InputError(this->Path, "has fewer bytes than element " + quoted(element.name) + " needs",
           std::to_string(element.count) + " times at least " + std::to_string(each), std::to_string(left));
       }
       left -= std::min(left, element.count * each);

@@ -188,7 +188,7 @@ public:
     }
     if (!vertices)
     {
-      throw InputError(path, 0, "has no vertices", "element vertex", "none");
+      throw InputError(path, "has no vertices", "element vertex", "none");
     }
     for (const auto& [element, at] : later)
     {

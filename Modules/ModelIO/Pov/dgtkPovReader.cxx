@@ -72,7 +72,7 @@ private:
       corners += 3 * instance.mesh->faces.size() + instance.mesh->vertices.size() + 1;
       if (corners > most)
       {
-        throw InputError(this->Path, 0, "repeats its meshes too often", "at most " + std::to_string(most) + " corners");
+        throw InputError(this->Path, "repeats its meshes too often", "at most " + std::to_string(most) + " corners");
       }
     }
   }

@@ -139,7 +139,7 @@ TEST(Assimp, AnImporterThatDiesIsAnInputError)
     const OtherImporter other(script);
     EXPECT_THAT(thrownBy<dgtk::InputError>([&] { readBytes("off", quadOff); }), HasSubstr(message)) << script;
   };
-  EXPECT_EQ(dgtk::InputError("", 0, "").code(), dgtk::ExitCode::Input);
+  EXPECT_EQ(dgtk::InputError("", "").code(), dgtk::ExitCode::Input);
   expectMessage("kill -ABRT $$", "model.off: is damaged: its importer ended abnormally (signal 6, Aborted)");
   expectMessage("kill -SEGV $$", "(signal 11");
   expectMessage("kill -XCPU $$", "took more processor time or memory than allowed");

@@ -32,7 +32,7 @@ public:
     }
     if (!this->Fixed.empty() && classesText(this->Fixed) != classesText(outline.classes))
     {
-      throw InputError(path, 0, "fixes other numbers of classes than " + this->By,
+      throw InputError(path, "fixes other numbers of classes than " + this->By,
         "the same \"classes\" in all scenes of a folder, or in none");
     }
     this->By = this->Fixed.empty() ? path : this->By;
@@ -49,7 +49,7 @@ public:
     std::vector<ClassDescription> numbered;
     if (this->Names.size() > std::size_t(largestClassId))
     {
-      throw InputError(folder, 0, "has objects of too many classes", "at most " + std::to_string(largestClassId),
+      throw InputError(folder, "has objects of too many classes", "at most " + std::to_string(largestClassId),
         std::to_string(this->Names.size()));
     }
     for (const std::string& name : this->Names)
@@ -104,7 +104,7 @@ FolderScenes scenesIn(const std::string& folder)
   std::sort(files.scenes.begin(), files.scenes.end());
   if (files.scenes.empty())
   {
-    throw InputError(folder, 0, "is a directory without scenes", "files in .json or .scene");
+    throw InputError(folder, "is a directory without scenes", "files in .json or .scene");
   }
   files.classes = classes.table(folder);
   return files;

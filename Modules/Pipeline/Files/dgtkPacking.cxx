@@ -220,8 +220,8 @@ Packing planPacking(const Stage& stage, const std::string& folder)
   {
     if (camera == inputsFolder)
     {
-      throw InputError(stage.description().title(), 0,
-        "cannot be packed: a camera has the name of the folder of inputs", "another name", quoted(camera));
+      throw InputError(stage.description().title(), "cannot be packed: a camera has the name of the folder of inputs",
+        "another name", quoted(camera));
     }
   }
   return Planner(stage, folder).run();
@@ -259,7 +259,7 @@ void checkPacking(const Packing& packing, const Stage& stage)
 {
   const auto fail = [&](const std::string& file)
   {
-    throw InputError(stage.description().title(), 0,
+    throw InputError(stage.description().title(),
       "cannot be packed: a model would not find the same files elsewhere (it names one by an absolute path?): " + file);
   };
   std::shared_ptr<const Stage> packed;

@@ -88,7 +88,7 @@ void RunDocuments::pack(RunFiles& run)
     const DatasetFile copy = writeDocument(this->Root, to, readFile(file));
     if (copy.sha256 != hashes.at(to))
     {
-      throw InputError(file, 0, "changed while it was copied");
+      throw InputError(file, "changed while it was copied");
     }
     run.add(copy);
   }

@@ -202,9 +202,8 @@ public:
   {
     if (this->Failed > 0)
     {
-      throw InputError(folder, 0,
-        std::to_string(this->Failed) + " of " + std::to_string(this->Total) +
-          " scenes could not be rendered; the first: " + this->FirstFailure);
+      throw InputError(folder, std::to_string(this->Failed) + " of " + std::to_string(this->Total) +
+                                 " scenes could not be rendered; the first: " + this->FirstFailure);
     }
     if (this->Busy > 0)
     {

@@ -104,3 +104,62 @@ TEST(RasterSource, SurfacesThatBecomeTranslucentAreSortedAsThoseThatAlwaysWere)
   const View view = frontView();
   EXPECT_EQ(drawnAlone({ opaque, half }, view).rgb, drawnAlone({ half }, view).rgb);
 }
+
+// Textures that a larger part was drawn to serve smaller ones.
+TEST(RasterSource, SmallPartsAfterLargeOnesAreThoseOfANewSource)
+{
+  ModelBuilder panes;
+  panes.part(matte({ 0.2, 0.4, 0.9 })).opacity = 0.5;
+  for (int i = 0; i < 3; ++i)
+  {
+    panes.quad({ -1.5 + 0.5 * i, -1, 1.5 }, { 0.2 * i, -1, 1.0 - i }, { 0.2 * i, 1, 1.0 - i }, { -1.5, 1, 1.5 });
+  }
+  const auto state = stateOf({ ball({ 0.9, 0.4, 0.2 }), panes.finish() });
+  state->lights.emplace_back();
+  state->background = { 0.1, 0.2, 0.3 };
+  const View view = frontView(96, 72);
+  struct Drawn
+  {
+    VisibilityBuffer ids;
+    ColorBuffer colors;
+    VisibilityBuffer hits;
+    SurfaceLists lists;
+  };
+  const auto peeled = [](RasterSource& source, const PixelRect& rect)
+  {
+    SurfaceLists lists;
+    source.peel(rect, lists)();
+    return lists;
+  };
+  const auto draw = [&](RasterSource& source, const PixelRect& rect)
+  {
+    Drawn drawn;
+    source.render(rect, drawn.ids);
+    source.renderColor(rect, 1, drawn.colors, &drawn.hits);
+    drawn.lists = peeled(source, rect);
+    return drawn;
+  };
+  const auto kept = makeRasterSource();
+  kept->setScene(state, view);
+  const PixelRect part{ 20, 10, 50, 40 };
+  for (const PixelRect& rect :
+    { part, whole(view), part, PixelRect{ 30, 0, 66, 20 }, PixelRect{ 0, 5, 10, 67 }, whole(view) })
+  {
+    const auto fresh = makeRasterSource();
+    fresh->setScene(state, view);
+    const Drawn expected = draw(*fresh, rect);
+    const Drawn drawn = draw(*kept, rect);
+    EXPECT_EQ(drawn.ids.hits, expected.ids.hits);
+    EXPECT_EQ(drawn.colors.rgb, expected.colors.rgb);
+    EXPECT_EQ(drawn.hits.hits, expected.hits.hits);
+    EXPECT_EQ(drawn.lists.first, expected.lists.first);
+    EXPECT_EQ(drawn.lists.hits, expected.lists.hits);
+    EXPECT_EQ(drawn.lists.rgba, expected.lists.rgba);
+  }
+  const SurfaceLists before = peeled(*kept, part);
+  VisibilityBuffer between;
+  kept->render({ 0, 5, 10, 20 }, between);
+  const SurfaceLists after = peeled(*kept, part);
+  EXPECT_EQ(after.first, before.first) << "OpenGL's state is what VTK takes it to be";
+  EXPECT_EQ(after.hits, before.hits);
+}

@@ -148,7 +148,7 @@ std::shared_ptr<const RandomScene> RandomScene::read(const std::string& path)
   if (extension != "json")
   {
     throw InputError(
-      path, 0, "is no scene that can be random", "a name in .json", extension.empty() ? "none" : '.' + extension);
+      path, "is no scene that can be random", "a name in .json", extension.empty() ? "none" : '.' + extension);
   }
   return std::shared_ptr<const RandomScene>(
     new RandomScene(path, fs::path(path).parent_path().string(), readFile(path, largestFile)));

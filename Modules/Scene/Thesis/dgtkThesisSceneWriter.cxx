@@ -95,7 +95,7 @@ private:
   {
     if (!sayable)
     {
-      throw InputError(this->Scene.title(), 0, property + " cannot be said in .scene");
+      throw InputError(this->Scene.title(), property + " cannot be said in .scene");
     }
   }
 

@@ -25,7 +25,7 @@ public:
   {
     if (this->Bytes.size() < 8 || this->number<std::int32_t>(0) != width || this->number<std::int32_t>(4) != height)
     {
-      throw InputError(path, 0, "size differs from the camera's, or is missing");
+      throw InputError(path, "size differs from the camera's, or is missing");
     }
     std::size_t at = 8;
     for (std::size_t i = 0; i < std::size_t(width) * height; ++i)
@@ -34,13 +34,13 @@ public:
       const std::size_t left = at + 4 <= this->Bytes.size() ? (this->Bytes.size() - at - 4) / recordBytes : 0;
       if (at + 4 > this->Bytes.size() || this->number<std::uint32_t>(at) > left)
       {
-        throw InputError(path, 0, "ends at byte " + std::to_string(this->Bytes.size()) + " within a pixel");
+        throw InputError(path, "ends at byte " + std::to_string(this->Bytes.size()) + " within a pixel");
       }
       at += 4 + recordBytes * this->number<std::uint32_t>(at);
     }
     if (at != this->Bytes.size())
     {
-      throw InputError(path, 0, "has bytes behind its last pixel");
+      throw InputError(path, "has bytes behind its last pixel");
     }
   }
   std::size_t count(int x, int y) const { return this->number<std::uint32_t>(this->start(x, y)); }

@@ -67,14 +67,14 @@ public:
     if (points.frame != frame ||
         std::set<std::string>(points.cameras.begin(), points.cameras.end()).size() != points.cameras.size())
     {
-      throw InputError(dataset.absolute(this->File), 0, "is of another frame, or names a camera twice");
+      throw InputError(dataset.absolute(this->File), "is of another frame, or names a camera twice");
     }
     for (const std::string& camera : points.cameras)
     {
       const CameraRecord* record = dataset.camera(camera, frame);
       if (!record)
       {
-        throw InputError(dataset.absolute(this->File), 0, "names a camera that cameras.json lacks", {}, quoted(camera));
+        throw InputError(dataset.absolute(this->File), "names a camera that cameras.json lacks", {}, quoted(camera));
       }
       this->Sights.push_back(dataset.timedSight(Eye(*record, dataset.sceneView(*record).model), frame));
       this->Rolls = this->Rolls || this->Sights.back()->rolls();

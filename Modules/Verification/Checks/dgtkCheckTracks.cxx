@@ -308,7 +308,7 @@ void checkViews(Dataset& dataset, const TracksCheck& check, const std::string& f
     view.file = dataset.find(record.name, "tracks", record.frame, { ".npy" });
     if (view.file.empty())
     {
-      throw InputError(dataset.absolute(file), 0, "has no places",
+      throw InputError(dataset.absolute(file), "has no places",
         "those of camera " + quoted(record.name) + " at frame " + std::to_string(record.frame));
     }
     view.sampled = frames % every == 0;

@@ -253,7 +253,7 @@ PicturePointer ExportedFrom::picture(
   const CameraRecord* record = this->camera(camera, frame);
   if (name.empty() || !record)
   {
-    throw InputError(this->DatasetFolder, 0, "has no file of layer " + layer + " of " + placeText(camera, frame));
+    throw InputError(this->DatasetFolder, "has no file of layer " + layer + " of " + placeText(camera, frame));
   }
   return std::make_shared<PictureFile>(this->DatasetFolder, name, record->width, record->height);
 }

@@ -29,7 +29,7 @@ PictureFile::PictureFile(const std::string& folder, const std::string& file, int
 {
   if (this->width() != width || this->height() != height)
   {
-    throw InputError(folder + '/' + file, 0, "size differs from the camera's",
+    throw InputError(folder + '/' + file, "size differs from the camera's",
       std::to_string(width) + " x " + std::to_string(height),
       std::to_string(this->width()) + " x " + std::to_string(this->height()));
   }
@@ -167,7 +167,7 @@ View Dataset::sceneView(const CameraRecord& record) const
   const int index = this->cameraIndex(record.name);
   if (index < 0)
   {
-    throw InputError(this->absolute("cameras.json"), 0, "camera " + quoted(record.name) + " is not in the scene");
+    throw InputError(this->absolute("cameras.json"), "camera " + quoted(record.name) + " is not in the scene");
   }
   return this->TheStage->view(static_cast<std::size_t>(index), record.frame, record.width, record.height);
 }

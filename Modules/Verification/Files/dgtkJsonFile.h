@@ -27,12 +27,11 @@ auto useJson(const std::string& path, const Body& body)
   }
   catch (const nlohmann::json::exception& error)
   {
-    throw InputError(path, 0, "cannot be used: " + untagged(error.what()));
+    throw InputError(path, "cannot be used: " + untagged(error.what()));
   }
   catch (const std::out_of_range&)
   {
-    throw InputError(
-      path, 0, "cannot be used: a list is too short or too long, or it names something that is not there");
+    throw InputError(path, "cannot be used: a list is too short or too long, or it names something that is not there");
   }
 }
 
@@ -41,7 +40,7 @@ inline nlohmann::json readJsonFile(const std::string& path)
   const std::string text = readFile(path);
   if (text.find('\0') != std::string::npos)
   {
-    throw InputError(path, 0, "cannot be used: it has a character 0, which ends a text");
+    throw InputError(path, "cannot be used: it has a character 0, which ends a text");
   }
   return useJson(path, [&] { return nlohmann::json::parse(text); });
 }

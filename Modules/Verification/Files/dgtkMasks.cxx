@@ -12,7 +12,7 @@ Masks readMasks(const std::string& path, int width, int height)
   const AmodalMasks file = readAmodal(path);
   if (file.width != width || file.height != height)
   {
-    throw InputError(path, 0, "size differs from the camera's");
+    throw InputError(path, "size differs from the camera's");
   }
   Masks masks;
   masks.width = width;
@@ -22,7 +22,7 @@ Masks readMasks(const std::string& path, int width, int height)
     std::vector<char>& mask = masks.byId[record.id];
     if (!mask.empty())
     {
-      throw InputError(path, 0, "has two masks of object " + std::to_string(record.id));
+      throw InputError(path, "has two masks of object " + std::to_string(record.id));
     }
     mask.assign(std::size_t(width) * height, 0);
     std::size_t at = 0; // columns from left to right, each from top to bottom

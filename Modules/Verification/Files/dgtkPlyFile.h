@@ -126,7 +126,7 @@ private:
   {
     if (this->Data.size() - this->At < sizeof(T) * count)
     {
-      throw InputError(this->Path, 0, "ends too early");
+      throw InputError(this->Path, "ends too early");
     }
     std::memcpy(values, this->Data.data() + this->At, sizeof(T) * count);
     this->At += sizeof(T) * count;
@@ -158,7 +158,7 @@ private:
       {
         if (corners != 3 || vertex < 0 || std::size_t(vertex) >= this->Vertices.size())
         {
-          throw InputError(this->Path, 0, "has a face that is no triangle of its vertices");
+          throw InputError(this->Path, "has a face that is no triangle of its vertices");
         }
       }
       this->Triangles.push_back(vertices);

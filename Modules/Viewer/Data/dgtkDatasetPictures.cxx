@@ -94,20 +94,20 @@ DatasetPictures::DatasetPictures(const std::string& folder)
   std::error_code failed;
   if (!fs::is_directory(root, failed))
   {
-    throw InputError(this->Folder, 0, "is not the folder of a dataset");
+    throw InputError(this->Folder, "is not the folder of a dataset");
   }
   if (!fs::exists(root / manifestName, failed))
   {
-    throw InputError(this->Folder, 0,
-      fs::exists(root / journalName, failed) ? "the dataset is not finished: render it again, to its end"
-                                             : "is not the folder of a dataset: it has no manifest.json");
+    throw InputError(this->Folder, fs::exists(root / journalName, failed)
+                                     ? "the dataset is not finished: render it again, to its end"
+                                     : "is not the folder of a dataset: it has no manifest.json");
   }
   this->TheManifest = readManifest((root / manifestName).string());
   this->readDocuments();
   this->index();
   if (this->Files.empty())
   {
-    throw InputError(this->Folder, 0, "the dataset has no pictures to look at");
+    throw InputError(this->Folder, "the dataset has no pictures to look at");
   }
 }
 

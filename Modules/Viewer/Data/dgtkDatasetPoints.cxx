@@ -54,7 +54,7 @@ View viewOf(const CameraRecord& record)
   view.model = modelOf(record);
   if (!view.model)
   {
-    throw InputError("cameras.json", 0, "camera " + quoted(record.name) + " has a model that is not known here",
+    throw InputError("cameras.json", "camera " + quoted(record.name) + " has a model that is not known here",
       "a camera model of this program", quoted(record.model));
   }
   view.camera_from_world = { record.R, record.t };
@@ -123,7 +123,7 @@ void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::str
   if (record == nullptr)
   {
     throw InputError(
-      dataset.folder() + "/cameras.json", 0, "has no camera " + quoted(camera) + " at frame " + std::to_string(frame));
+      dataset.folder() + "/cameras.json", "has no camera " + quoted(camera) + " at frame " + std::to_string(frame));
   }
   const std::string path = dataset.file({ camera, frame, label });
   const PictureLayer& layer = *dataset.layer(label);

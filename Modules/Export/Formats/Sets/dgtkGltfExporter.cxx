@@ -49,7 +49,7 @@ nlohmann::json sceneOf(const DatasetView& dataset)
   }
   catch (const nlohmann::json::exception& error)
   {
-    throw InputError(path, 0, "cannot be used: " + untagged(error.what()));
+    throw InputError(path, "cannot be used: " + untagged(error.what()));
   }
 }
 

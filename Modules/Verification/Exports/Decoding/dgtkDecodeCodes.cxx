@@ -21,7 +21,7 @@ void requireChannels(const std::string& path, const DecodedPixels& pixels, int c
   if (pixels.channels != channels)
   {
     throw InputError(
-      path, 0, "expected " + std::to_string(channels) + " channels, found " + std::to_string(pixels.channels));
+      path, "expected " + std::to_string(channels) + " channels, found " + std::to_string(pixels.channels));
   }
 }
 } // namespace
@@ -37,7 +37,7 @@ DecodedPixels decodeKittiFlow(const std::string& path, const PixelEncoding& enco
     const bool valid = codes.values[i + 2] != 0;
     if (!valid && (codes.values[i] != 0 || codes.values[i + 1] != 0))
     {
-      throw InputError(path, 0, "has flow where it is marked as not valid");
+      throw InputError(path, "has flow where it is marked as not valid");
     }
     flow.values.push_back(valid ? (codes.values[i] - 32768) / 64 : nothing);
     flow.values.push_back(valid ? (codes.values[i + 1] - 32768) / 64 : nothing);
@@ -73,7 +73,7 @@ DecodedPixels decodeDpt(const std::string& path, const PixelEncoding&)
   const std::size_t count = std::size_t(std::max(size[0], 0)) * std::size_t(std::max(size[1], 0));
   if (tag != 202021.25F || count == 0 || bytes.size() != 12 + 4 * count)
   {
-    throw InputError(path, 0, "is no depth map of Sintel");
+    throw InputError(path, "is no depth map of Sintel");
   }
   DecodedPixels pixels{ size[0], size[1], 1, {} };
   for (std::size_t i = 0; i < count; ++i)
@@ -96,7 +96,7 @@ DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encodi
   {
     if (codes.values[i + 2] != 0)
     {
-      throw InputError(path, 0, "has a third component");
+      throw InputError(path, "has a third component");
     }
     for (std::size_t c = 0; c < 2; ++c)
     {
@@ -147,7 +147,7 @@ DecodedPixels decodeColmap(const std::string& path, const PixelEncoding& encodin
   const std::size_t channels = std::size_t(std::max(pixels.channels, 0));
   if (read != 4 || end != '&' || plane * channels == 0 || bytes.size() != std::size_t(length) + 4 * plane * channels)
   {
-    throw InputError(path, 0, "is no map of COLMAP");
+    throw InputError(path, "is no map of COLMAP");
   }
   const double none = numberOf(encoding, "nothing", 0);
   pixels.values.resize(plane * channels);

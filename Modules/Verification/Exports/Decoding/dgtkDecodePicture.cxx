@@ -50,7 +50,7 @@ DecodedPixels decodeJpeg(const std::string& path, const std::string& bytes)
   catch (const Damaged&)
   {
     jpeg_destroy_decompress(&decoder);
-    throw InputError(path, 0, "is no JPEG picture, or damaged");
+    throw InputError(path, "is no JPEG picture, or damaged");
   }
   jpeg_destroy_decompress(&decoder);
   return pixels;

@@ -97,7 +97,7 @@ struct Comparison
     const CameraRecord* camera = this->source.camera(this->file().camera, this->file().frame);
     if (!camera || camera->width != width || camera->height != height)
     {
-      throw InputError(this->path(), 0, "size differs from the camera's");
+      throw InputError(this->path(), "size differs from the camera's");
     }
   }
 };

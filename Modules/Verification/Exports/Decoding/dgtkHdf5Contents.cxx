@@ -28,7 +28,7 @@ public:
   }
   [[noreturn]] void fail(std::uint64_t at, const std::string& what) const
   {
-    throw InputError(this->Path, 0, "at byte " + std::to_string(at) + ": " + what);
+    throw InputError(this->Path, "at byte " + std::to_string(at) + ": " + what);
   }
   const char* at(std::uint64_t offset, std::uint64_t count) const
   {

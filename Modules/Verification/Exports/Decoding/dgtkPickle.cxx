@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  [[noreturn]] void fail() const { throw InputError(this->Path, 0, "is no pickle of videos"); }
+  [[noreturn]] void fail() const { throw InputError(this->Path, "is no pickle of videos"); }
 
   std::size_t take(std::size_t count)
   {
@@ -230,7 +230,7 @@ PickledArray arrayOf(const std::string& path, const Value& value)
   if (!made || state[1].kind != Kind::Tuple || state[2].text != "numpy.dtype" || state[2].items.size() != 2 ||
       state[2].items[0].items.empty() || state[4].kind != Kind::Bytes)
   {
-    throw InputError(path, 0, "has an entry that is no array");
+    throw InputError(path, "has an entry that is no array");
   }
   PickledArray array;
   array.type = state[2].items[0].items[0].text;
@@ -244,7 +244,7 @@ PickledArray arrayOf(const std::string& path, const Value& value)
   }
   if (values != array.bytes)
   {
-    throw InputError(path, 0, "has an array that is not as long as its shape says");
+    throw InputError(path, "has an array that is not as long as its shape says");
   }
   return array;
 }

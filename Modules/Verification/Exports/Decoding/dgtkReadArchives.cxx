@@ -53,7 +53,7 @@ void check(const Header& header, const std::string& path, std::uint64_t offset)
   {
     if (!right)
     {
-      throw InputError(path, 0, "at byte " + std::to_string(offset) + ": " + what);
+      throw InputError(path, "at byte " + std::to_string(offset) + ": " + what);
     }
   };
   need(header.text(257, 6) == "ustar" && std::memcmp(header.bytes + 263, "00", 2) == 0, "is no ustar header");
@@ -75,7 +75,7 @@ void forTarMembers(
     {
       if (!file.read(header.bytes, block) || !header.isEmpty())
       {
-        throw InputError(path, 0, "does not end with two empty blocks");
+        throw InputError(path, "does not end with two empty blocks");
       }
       return;
     }
@@ -88,7 +88,7 @@ void forTarMembers(
     file.seekg(here);
     if (!fits)
     {
-      throw InputError(path, 0, "at byte " + std::to_string(offset) + ": the file ends before its contents");
+      throw InputError(path, "at byte " + std::to_string(offset) + ": the file ends before its contents");
     }
     std::string bytes(padded, '\0');
     file.read(bytes.data(), static_cast<std::streamsize>(padded));
@@ -96,7 +96,7 @@ void forTarMembers(
     offset += padded;
     visit(header.text(0, 100), bytes);
   }
-  throw InputError(path, 0, "ends without an empty block");
+  throw InputError(path, "ends without an empty block");
 }
 
 namespace
@@ -132,7 +132,7 @@ DecodedPixels decodeNpyBytes(const std::string& path, const std::string& bytes)
   const std::string text = bytes.size() < 10 + length ? "" : bytes.substr(10, length);
   if (bytes.compare(0, 8, std::string("\x93NUMPY\x01\x00", 8)) != 0 || !std::regex_match(text, match, form))
   {
-    throw InputError(path, 0, "is no NumPy array of format 1.0");
+    throw InputError(path, "is no NumPy array of format 1.0");
   }
   DecodedPixels pixels;
   pixels.height = std::stoi(match[2]);
@@ -147,7 +147,7 @@ DecodedPixels decodeNpyBytes(const std::string& path, const std::string& bytes)
       return pixels;
     }
   }
-  throw InputError(path, 0, "is no array of as many numbers as its shape says");
+  throw InputError(path, "is no array of as many numbers as its shape says");
 }
 
 namespace
@@ -216,7 +216,7 @@ DecodedPixels decodeGrayPngBytes(const std::string& path, const std::string& byt
         uncompress(data.data(), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) != Z_OK ||
         size != data.size())
     {
-      throw InputError(path, 0, "is no gray PNG, or damaged");
+      throw InputError(path, "is no gray PNG, or damaged");
     }
     unfilter(data, rowBytes, depth);
     for (std::size_t y = 0; y < std::size_t(pixels.height); ++y)
@@ -231,7 +231,7 @@ DecodedPixels decodeGrayPngBytes(const std::string& path, const std::string& byt
   }
   catch (const std::out_of_range&)
   {
-    throw InputError(path, 0, "is no PNG, or damaged");
+    throw InputError(path, "is no PNG, or damaged");
   }
 }
 

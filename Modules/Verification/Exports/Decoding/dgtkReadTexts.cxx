@@ -75,7 +75,7 @@ const std::vector<double>& numbersOf(
   const auto found = all.find(key);
   if (found == all.end() || found->second.size() != std::size_t(count))
   {
-    throw InputError(path, 0, "expected " + std::to_string(count) + " numbers of " + key);
+    throw InputError(path, "expected " + std::to_string(count) + " numbers of " + key);
   }
   return found->second;
 }
@@ -137,7 +137,7 @@ double metresOf(const ExportedFrom& source)
   }
   if (source.manifest().metresPerUnit <= 0)
   {
-    throw InputError(source.path(exportName), 0, "nobody says how long the dataset's unit is");
+    throw InputError(source.path(exportName), "nobody says how long the dataset's unit is");
   }
   return source.manifest().metresPerUnit;
 }

@@ -70,13 +70,13 @@ BopPoints verticesOf(const std::string& path)
     }
     else
     {
-      throw InputError(path, 0, "ends too early");
+      throw InputError(path, "ends too early");
     }
     points.push_back(x);
   }
   if (points.empty())
   {
-    throw InputError(path, 0, "has no vertices");
+    throw InputError(path, "has no vertices");
   }
   return points;
 }

@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, std::string>> leavesOf(const std::string& pat
     const std::string tag = text.substr(at + (closes ? 2 : 1), end - at - (closes ? 2 : 1));
     if (text[at] != '<' || end == std::string::npos || (closes && (open.empty() || open.back() != tag)))
     {
-      throw InputError(path, 0, "is no XML of elements that end as they begin");
+      throw InputError(path, "is no XML of elements that end as they begin");
     }
     at = end + 1;
     if (!closes)
@@ -49,7 +49,7 @@ std::vector<std::pair<std::string, std::string>> leavesOf(const std::string& pat
   }
   if (!open.empty())
   {
-    throw InputError(path, 0, "ends too early");
+    throw InputError(path, "ends too early");
   }
   return leaves;
 }
@@ -68,7 +68,7 @@ public:
     if (this->At == this->All.size() || this->All[this->At].first != "annotation/" + element)
     {
       throw InputError(
-        this->Path, 0, "expected " + element + (this->isAtEnd() ? "" : ", found " + this->All[this->At].first));
+        this->Path, "expected " + element + (this->isAtEnd() ? "" : ", found " + this->All[this->At].first));
     }
     return this->All[this->At++].second;
   }

@@ -76,7 +76,7 @@ const Lens& kindOf(const std::string& path, const Same& same)
       return kind;
     }
   }
-  throw InputError(path, 0, "has a camera model that nobody knows here");
+  throw InputError(path, "has a camera model that nobody knows here");
 }
 
 /// Little-endian numbers one after another.
@@ -94,7 +94,7 @@ public:
     T value{};
     if (this->All.size() - this->At < sizeof value)
     {
-      throw InputError(this->Path, 0, "ends early");
+      throw InputError(this->Path, "ends early");
     }
     std::memcpy(&value, this->All.data() + this->At, sizeof value);
     this->At += sizeof value;
@@ -113,7 +113,7 @@ public:
   {
     if (this->At != this->All.size())
     {
-      throw InputError(this->Path, 0, "goes on behind its end");
+      throw InputError(this->Path, "goes on behind its end");
     }
   }
 
@@ -201,7 +201,7 @@ void requireEnd(const std::istringstream& line, const std::string& path)
 {
   if (!line.eof())
   {
-    throw InputError(path, 0, "has something else among its numbers");
+    throw InputError(path, "has something else among its numbers");
   }
 }
 
@@ -247,7 +247,7 @@ void readText(const std::string& folder, ColmapModel& model)
     const Lens& kind = kindOf(folder + "cameras.txt", [&](const Lens& one) { return one.name == camera.model; });
     if (camera.numbers.size() != kind.numbers)
     {
-      throw InputError(folder + "cameras.txt", 0, "a camera has not the numbers of its model");
+      throw InputError(folder + "cameras.txt", "a camera has not the numbers of its model");
     }
   }
   readTextImages(folder + "images.txt", model);

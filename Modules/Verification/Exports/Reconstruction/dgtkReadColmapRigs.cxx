@@ -83,7 +83,7 @@ private:
   {
     if (!right)
     {
-      throw InputError(this->Path, 0, "does not have the numbers that rigs or frames have");
+      throw InputError(this->Path, "does not have the numbers that rigs or frames have");
     }
   }
   std::string Path;
@@ -111,7 +111,7 @@ std::map<std::uint32_t, Rig> readRigs(const std::string& path, bool binary)
       const std::uint32_t camera = values.camera();
       if (values.next<std::uint8_t>() != 1)
       {
-        throw InputError(path, 0, "a camera of a rig has no place");
+        throw InputError(path, "a camera of a rig has no place");
       }
       rig[camera] = values.pose();
     }

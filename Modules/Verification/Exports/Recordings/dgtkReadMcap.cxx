@@ -158,7 +158,7 @@ private:
         this->takeOffset(bytes);
         break;
       default:
-        throw InputError(this->Path, 0, "has a record of opcode " + std::to_string(op) + " where none is");
+        throw InputError(this->Path, "has a record of opcode " + std::to_string(op) + " where none is");
     }
   }
 
@@ -232,7 +232,7 @@ private:
       const auto channel = this->Channels.find(id);
       if (op != 5 || channel == this->Channels.end())
       {
-        throw InputError(this->Path, 0, "has a chunk with what is no message of a channel");
+        throw InputError(this->Path, "has a chunk with what is no message of a channel");
       }
       message.take<std::uint32_t>();
       const auto time = message.take<std::uint64_t>();

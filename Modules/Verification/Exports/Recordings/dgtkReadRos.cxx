@@ -126,7 +126,7 @@ const char* RosBytes::skip(std::size_t bytes)
 {
   if (this->Size - this->At < bytes)
   {
-    throw InputError(this->File, 0, "ends too early");
+    throw InputError(this->File, "ends too early");
   }
   this->At += bytes;
   return this->Data + this->At - bytes;
@@ -155,7 +155,7 @@ std::string RosFile::read(std::uint64_t position, std::uint64_t bytes)
 {
   if (position > this->Size || bytes > this->Size - position)
   {
-    throw InputError(this->Path, 0, "ends too early");
+    throw InputError(this->Path, "ends too early");
   }
   std::string text(bytes, '\0');
   this->Stream.seekg(static_cast<std::streamoff>(position));

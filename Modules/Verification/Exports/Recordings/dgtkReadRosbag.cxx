@@ -23,7 +23,7 @@ Fields fieldsIn(const std::string& file, RosBytes bytes)
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || !fields.emplace(text.substr(0, equals), text.substr(equals + 1)).second)
     {
-      throw InputError(file, 0, "has a header that is none");
+      throw InputError(file, "has a header that is none");
     }
   }
   return fields;
@@ -42,7 +42,7 @@ T numberOf(const std::string& file, const Fields& fields, const std::string& key
   const auto found = fields.find(key);
   if (found == fields.end() || found->second.size() != sizeof(T))
   {
-    throw InputError(file, 0, "has a record without the field " + key);
+    throw InputError(file, "has a record without the field " + key);
   }
   return RosBytes(file, found->second).take<T>();
 }
@@ -139,7 +139,7 @@ private:
         this->takeConnection(record.fields, record.data, this->Listed);
         break;
       default:
-        throw InputError(this->Path, 0, "has a record of op " + std::to_string(op) + " where none is");
+        throw InputError(this->Path, "has a record of op " + std::to_string(op) + " where none is");
     }
   }
 
@@ -173,7 +173,7 @@ private:
       const auto connection = this->Connections.find(id);
       if (connection == this->Connections.end())
       {
-        throw InputError(this->Path, 0, "has a message before its connection");
+        throw InputError(this->Path, "has a message before its connection");
       }
       const std::uint64_t time = timeOf(this->Path, fields, "time");
       this->Referee.message(connection->second["topic"], connection->second["type"], time, data);

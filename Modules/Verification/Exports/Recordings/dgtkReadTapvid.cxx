@@ -45,7 +45,7 @@ Array arrayOf(const std::string& path, const std::string& bytes)
   const std::size_t head = bytes.size() > 10 ? 10 + std::uint8_t(bytes[8]) + 256 * std::uint8_t(bytes[9]) : 0;
   if (head == 0 || bytes.compare(0, 6, "\x93NUMPY") != 0 || head > bytes.size())
   {
-    throw InputError(path, 0, "has a member that is no .npy");
+    throw InputError(path, "has a member that is no .npy");
   }
   const std::string text = bytes.substr(10, head - 10);
   Array array{ between(text, "'descr': '", "'"), {}, bytes.substr(head) };
@@ -64,7 +64,7 @@ Array arrayOf(const std::string& path, const std::string& bytes)
   const std::size_t size = array.type.empty() ? 0 : std::size_t(array.type.back() - '0');
   if (array.bytes.size() != values * size)
   {
-    throw InputError(path, 0, "has an array that is not as long as its shape says");
+    throw InputError(path, "has an array that is not as long as its shape says");
   }
   return array;
 }
@@ -104,12 +104,12 @@ std::map<std::string, Array> arraysIn(const std::string& path)
     const std::size_t start = at + 30 + name + number(at + 28, 2);
     if (number(at + 8, 2) != 0 || number(at + 18, 4) != size || start + size > all.size())
     {
-      throw InputError(path, 0, "is no archive of stored members");
+      throw InputError(path, "is no archive of stored members");
     }
     const std::string bytes = all.substr(start, size);
     if (sumOf(bytes) != number(at + 14, 4))
     {
-      throw InputError(path, 0, "has a member with another sum");
+      throw InputError(path, "has a member with another sum");
     }
     arrays.emplace(all.substr(at + 30, name), arrayOf(path, bytes));
     at = start + size;
@@ -126,7 +126,7 @@ void judgeVideo(ExportJudge& judge, const std::string& folder, const std::vector
   {
     if (arrays.count(name) == 0)
     {
-      throw InputError(path, 0, std::string("lacks ") + name);
+      throw InputError(path, std::string("lacks ") + name);
     }
   }
   const Array& points = arrays.at("points.npy");

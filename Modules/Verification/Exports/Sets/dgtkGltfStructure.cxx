@@ -154,7 +154,7 @@ Eigen::MatrixXd GltfNumbers::read(std::size_t index) const
   if (!known || (!whole && one.at("componentType") != 5126) || view.contains("byteStride") || bytes > buffer.size() ||
       at > buffer.size() - bytes || bytes % (4 * columns) != 0 || rows != bytes / (4 * columns) || rows == 0)
   {
-    throw InputError(this->Path, 0, "accessor " + std::to_string(index) + " cannot be read");
+    throw InputError(this->Path, "accessor " + std::to_string(index) + " cannot be read");
   }
   Eigen::MatrixXd values(rows, columns);
   for (std::size_t i = 0; i < rows * columns; ++i)

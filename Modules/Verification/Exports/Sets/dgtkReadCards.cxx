@@ -43,7 +43,7 @@ std::vector<std::string> headLines(const std::string& path)
   }
   if (line != "---")
   {
-    throw InputError(path, 0, "the head does not end");
+    throw InputError(path, "the head does not end");
   }
   return lines;
 }

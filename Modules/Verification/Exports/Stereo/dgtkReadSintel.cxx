@@ -22,7 +22,7 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const ExportedName
   double numbers[21] = {};
   if (bytes.size() != sizeof tag + sizeof numbers)
   {
-    throw InputError(path, 0, "is no camera of Sintel: " + std::to_string(bytes.size()) + " bytes");
+    throw InputError(path, "is no camera of Sintel: " + std::to_string(bytes.size()) + " bytes");
   }
   std::memcpy(&tag, bytes.data(), sizeof tag);
   std::memcpy(numbers, bytes.data() + sizeof tag, sizeof numbers);

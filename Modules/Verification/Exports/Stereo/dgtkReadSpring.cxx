@@ -19,9 +19,8 @@ DecodedPixels decodeHdf5(const std::string& path, const PixelEncoding&)
   if (members.size() != 1 || found == members.end() || found->second.kind != Hdf5Dataset::Kind::Real ||
       found->second.dimensions.size() != rank || (flow && found->second.dimensions[2] != 2) || found->second.hasTime)
   {
-    throw InputError(path, 0,
-      flow ? "expected real numbers `flow` of a shape (H, W, 2) alone"
-           : "expected real numbers `disparity` of a shape (H, W) alone");
+    throw InputError(path, flow ? "expected real numbers `flow` of a shape (H, W, 2) alone"
+                                : "expected real numbers `disparity` of a shape (H, W) alone");
   }
   return { static_cast<int>(found->second.dimensions[1]), static_cast<int>(found->second.dimensions[0]), flow ? 2 : 1,
     found->second.values };
