@@ -106,6 +106,21 @@ inline std::vector<RayCase> rayCases()
   add("ground under and behind", ground.state(),
     makeView({ 64, 48, 90, { 0.3, 1.1, 0.2 }, { 0.1, 0.4, -3 }, { 0, 1, 0 }, 0.1, 1000 }));
 
+  // Single precision takes one for another: their coordinates are large, the camera is at their middle.
+  SceneBuilder sheets;
+  const Eigen::Vector3d across(2000, 11.7, 3.3);
+  const Eigen::Vector3d along(5.1, -71.9, -2000);
+  for (int i = 7; i >= 0; --i)
+  {
+    QuadOptions turned;
+    turned.sideU = std::cos(0.1 * i) * across + std::sin(0.1 * i) * along;
+    turned.sideV = std::cos(0.1 * i) * along - std::sin(0.1 * i) * across;
+    turned.corner = Eigen::Vector3d(0, -1 - 2e-6 * i, 0) - (turned.sideU + turned.sideV) / 2;
+    sheets.add(makeQuad(turned));
+  }
+  add("wide sheets close together", sheets.state(),
+    makeView({ 64, 48, 60, { 0.1, 0.2, 0.3 }, { 0.3, -1, -0.5 }, { 0, 1, 0 }, 0.1, 1000 }));
+
   SceneBuilder soup;
   soup.add(makeSoup({ 1500, 1.5, 0.8, 3 }));
   soup.add(makeSoup({ 500, 1.5, 0.1, 4 }), placement({ 0.2, 0.1, 0.3 }, 0.9, { 1, 0, 1 }, 0.5));
