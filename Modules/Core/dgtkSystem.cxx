@@ -37,11 +37,12 @@ bool prepareHeap()
       return false; // what is reserved here would be missed elsewhere
     }
   }
-  ::mallopt(M_TOP_PAD, 192 * mebibyte); // stays, so that it is not given back when much is free
+  ::mallopt(M_TOP_PAD, 192 * mebibyte);
   const auto heapEnd = [] { return reinterpret_cast<std::uintptr_t>(::sbrk(0)); };
   const std::uintptr_t begin = (heapEnd() + largePage - 1) / largePage * largePage;
   void* volatile grown = std::malloc(mebibyte); // more than a heap begins with
   std::free(grown);
+  ::mallopt(M_TOP_PAD, 32 * mebibyte); // threads' arenas keep as much, too
   const std::uintptr_t end = heapEnd();
   return end > begin && ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE) == 0;
 }

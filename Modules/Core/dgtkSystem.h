@@ -21,8 +21,8 @@ DGTKCORE_EXPORT std::string programOnPath(const std::string& name);
 
 /// For programs, once at their start (a library must not decide it): memory that is freed is kept for what comes, and
 /// the first 192 MiB of the heap are of large pages, because memory that comes and goes page by page costs a seventh of
-/// a run's processor time and more on virtual machines. False when the system has no large pages, another allocator is
-/// in use, or memory is limited (`ulimit -v`, `-d`).
+/// a run's processor time and more on virtual machines. True when large pages were asked for: not where the system has
+/// none, another allocator is in use, or memory is limited (`ulimit -v`, `-d`).
 DGTKCORE_EXPORT bool prepareHeap();
 
 /// A folder among the system's temporary ones, made when it is first asked for and gone with its owner.

@@ -284,6 +284,10 @@ RasterChunk RasterModels::makeChunk(const RasterModel& made, const Part& part, s
   shader.bumpMap = chunk.surface.bumpMap != 0;
   shader.metallicRoughnessMap = chunk.surface.metallicRoughnessMap != 0;
   shader.emissionMap = chunk.surface.emissionMap != 0;
+  if (material.emissionMap >= 0 && !shader.emissionMap)
+  {
+    chunk.emission = {}; // where it glows is not known
+  }
   shader.occlusionMap = chunk.surface.occlusionMap != 0;
   const std::pair<ShaderVariant::Picture, int> maps[] = { { ShaderVariant::Normal, material.normalMap },
     { ShaderVariant::Bump, material.bumpMap }, { ShaderVariant::MetallicRoughness, material.metallicRoughnessMap },

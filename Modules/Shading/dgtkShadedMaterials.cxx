@@ -108,6 +108,10 @@ ShadedMaterial ShadedMaterialLibrary::make(const Model& model, const Material& m
   to.bumpMap = picture(material.bumpMap);
   to.metallicRoughnessMap = picture(material.metallicRoughnessMap);
   to.emissionMap = picture(material.emissionMap);
+  if (material.emissionMap >= 0 && to.emissionMap == nullptr)
+  {
+    to.emission = float4(0); // where it glows is not known
+  }
   to.occlusionMap = picture(material.occlusionMap);
   to.mapped = to.texture != nullptr || to.normalMap != nullptr || to.bumpMap != nullptr ||
               to.metallicRoughnessMap != nullptr || to.emissionMap != nullptr || to.occlusionMap != nullptr;

@@ -95,7 +95,6 @@ public:
       this->settleAlpha(this->Contents.alpha[i], this->Made.materials[i]);
     }
     this->settleCutOuts();
-    this->settleEmission();
     this->say();
   }
 
@@ -295,20 +294,6 @@ private:
     for (Texture& texture : this->Made.textures)
     {
       texture.name = validUtf8(texture.name);
-    }
-  }
-
-  /// Where light comes from is said by a picture: without it there is none.
-  void settleEmission()
-  {
-    for (Material& material : this->Made.materials)
-    {
-      const bool isShown = material.emissionMap >= 0 && !this->Made.uvs.empty() &&
-                           this->Made.textures[static_cast<std::size_t>(material.emissionMap)].image;
-      if (this->Wanted && material.emissionMap >= 0 && !isShown)
-      {
-        material.emission = { 0, 0, 0 };
-      }
     }
   }
 

@@ -19,6 +19,7 @@ namespace
 {
 namespace fs = std::filesystem;
 constexpr std::uint64_t largestLibrary = std::uint64_t(1) << 26;
+constexpr std::size_t mostNames = 8; // in one warning
 
 /// The next word, which stays to be read.
 std::string_view ahead(ObjStatements& statements)
@@ -176,12 +177,12 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
   }
   else
   {
-    this->readPicture(statements, entry);
+    this->readPictureStatement(statements, entry);
   }
 }
 
 /// Programs write these statements in upper and lower case alike.
-void ObjMaterials::readPicture(ObjStatements& statements, Entry& entry)
+void ObjMaterials::readPictureStatement(ObjStatements& statements, Entry& entry)
 {
   static const std::map<std::string, Picture Entry::*> pictures{ { "map_kd", &Entry::picture },
     { "map_d", &Entry::mask }, { "map_ke", &Entry::emission }, { "norm", &Entry::normals } };
@@ -221,7 +222,7 @@ int ObjMaterials::add(const Entry& entry)
   material.emissionMap = this->Builder.addTexture(entry.emission.name, {}, {}, entry.emission.wrap);
   if (material.emissionMap >= 0 && material.emission.isZero())
   {
-    material.emission = { 1, 1, 1 }; // a picture of it alone glows as it is
+    material.emission = { 1, 1, 1 }; // exporters write Ke 0 0 0 beside a picture
   }
   this->Unread.insert(entry.unread.begin(), entry.unread.end());
   const int made = this->Builder.addMaterial(material, alpha);
@@ -290,7 +291,12 @@ void ObjMaterials::finish()
 {
   if (!this->Unread.empty())
   {
-    const std::vector<std::string> names(this->Unread.begin(), this->Unread.end());
+    std::vector<std::string> names(this->Unread.begin(), this->Unread.end());
+    if (names.size() > mostNames)
+    {
+      names.resize(mostNames);
+      names.emplace_back("...");
+    }
     this->Builder.warn("pictures of " + joined(names) + " are not drawn");
   }
   this->Files.refuseOutside(this->Path);

@@ -55,7 +55,7 @@ private:
   bool addLibrary(const std::string& name);
   void readLibrary(const std::string& path);
   void readStatement(class ObjStatements& statements, Entry& entry);
-  void readPicture(class ObjStatements& statements, Entry& entry);
+  void readPictureStatement(class ObjStatements& statements, Entry& entry);
   int add(const Entry& entry);
   void placePictures(const Entry& entry, int material);
 

@@ -200,6 +200,12 @@ TEST_P(PictureColor, AmbientSpecularAndEmission)
   const Eigen::Vector3d expected =
     material.ambient * 0.7 + material.emission + material.diffuse * cosine + material.specular * std::pow(cosine, 8);
   expectColor(colorAt(renderColor(state, frontView()), 32, 24), expected);
+  const auto lost = std::make_shared<Model>(*square(material));
+  lost->textures.resize(1); // a picture that was not found
+  lost->materials[0].emissionMap = 0;
+  auto dark = stateOf({ lost });
+  dark->lights = state->lights;
+  expectColor(colorAt(renderColor(dark, frontView()), 32, 24), expected - material.emission);
 }
 
 // Microfacets by GGX, Smith and Schlick in linear light, seen along the normal, by double precision.
