@@ -38,13 +38,14 @@ bool prepareHeap()
     }
   }
   ::mallopt(M_TOP_PAD, 192 * mebibyte);
-  const auto heapEnd = [] { return reinterpret_cast<std::uintptr_t>(::sbrk(0)); };
-  const std::uintptr_t begin = (heapEnd() + largePage - 1) / largePage * largePage;
+  const auto heapEnd = [] { return static_cast<char*>(::sbrk(0)); };
+  char* const before = heapEnd();
+  char* const begin = before + (largePage - reinterpret_cast<std::uintptr_t>(before) % largePage) % largePage;
   void* volatile grown = std::malloc(mebibyte); // more than a heap begins with
   std::free(grown);
   ::mallopt(M_TOP_PAD, 32 * mebibyte); // threads' arenas keep as much, too
-  const std::uintptr_t end = heapEnd();
-  return end > begin && ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE) == 0;
+  char* const end = heapEnd();
+  return end > begin && ::madvise(begin, std::size_t(end - begin), MADV_HUGEPAGE) == 0;
 }
 
 bool isProgram(const std::string& path)

@@ -171,9 +171,9 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
   }
   else if (keyword == "Pm" || keyword == "Pr")
   {
-    Material::Physical& physical = material.physical ? *material.physical : material.physical.emplace();
-    double& value = keyword == "Pm" ? physical.metallic : physical.roughness;
-    statements.number(value);
+    Material::Physical physical = material.physical ? *material.physical : Material::Physical();
+    statements.number(keyword == "Pm" ? physical.metallic : physical.roughness);
+    material.physical = physical;
   }
   else
   {

@@ -135,7 +135,7 @@ std::string filterCode(const ShaderVariant& variant)
 /// Lets each picture be read by the function of its wraps.
 void putWraps(const ShaderVariant& variant, std::string& fragment)
 {
-  constexpr std::array<const char*, ShaderVariant::pictures> names{ "actortexture", "dgtkNormalMap", "heights",
+  constexpr std::array<const char*, ShaderVariant::Pictures> names{ "actortexture", "dgtkNormalMap", "heights",
     "dgtkMetalRoughMap", "dgtkEmissionMap", "dgtkOcclusionMap" };
   for (std::size_t i = 0; i < names.size(); ++i)
   {

@@ -25,7 +25,7 @@ struct ShaderVariant
     MetallicRoughness,
     Emission,
     Occlusion,
-    pictures
+    Pictures
   };
 
   std::array<int, lightLawCount> lights{}; ///< number of those of each law
@@ -35,7 +35,7 @@ struct ShaderVariant
   bool textured = false;
   bool colored = false; ///< vertices have colours
   bool cutOut = false;
-  std::array<TextureWraps, pictures> wraps{};
+  std::array<TextureWraps, Pictures> wraps{};
   bool pieces = false;  ///< the triangle comes from a vertex attribute
   bool peel = false;    ///< fragments up to those of the layer before are not there
   bool collect = false; ///< fragments are appended to a FragmentList
