@@ -69,7 +69,7 @@ class Glx(Case):
         command = ["render", os.path.join(SCENES, "demo.json"), "--layers", "color", "--size", "96x72", "--frames", "0:1"]
 
         def glx(name, *options):
-            done = subprocess.run(["xvfb-run", "-a", DGTK, *command, "-o", self.path(name), "--gl", "glx", *options],
+            done = subprocess.run(["xvfb-run", "-a", "-n", "470", DGTK, *command, "-o", self.path(name), "--gl", "glx", *options],
                                   capture_output=True, text=True, timeout=300)
             self.assertEqual(done.returncode, 0, done.stderr)
             return done.stdout + done.stderr

