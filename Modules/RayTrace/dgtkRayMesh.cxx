@@ -102,9 +102,9 @@ RTCBuffer makeVertices(RayMesh& mesh, const Eigen::Matrix3d* bake)
 {
   const std::vector<Eigen::Vector3d>& positions = mesh.geometry->positions;
   // Embree reads 16 bytes a vertex: one float of padding at the end.
-  RTCBuffer buffer = rtcNewBuffer(mesh.device->handle(), (positions.size() * 3 + 1) * sizeof(float));
+  RTCBuffer buffer = embree().NewBuffer(mesh.device->handle(), (positions.size() * 3 + 1) * sizeof(float));
   mesh.device->check();
-  float* out = static_cast<float*>(rtcGetBufferData(buffer));
+  float* out = static_cast<float*>(embree().GetBufferData(buffer));
   double radius = 0;
   for (const Eigen::Vector3d& position : positions)
   {
@@ -131,13 +131,13 @@ bool hasArea(const RayMesh& mesh, const std::array<std::uint32_t, 3>& triangle)
 
 void attach(RayMesh& mesh, RTCBuffer vertices, std::uint32_t first, std::uint32_t count, bool cutOut)
 {
-  RTCGeometry geometry = rtcNewGeometry(mesh.device->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, 3 * sizeof(float),
+  RTCGeometry geometry = embree().NewGeometry(mesh.device->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  embree().SetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, 3 * sizeof(float),
     mesh.geometry->positions.size());
-  auto* indices = static_cast<std::uint32_t*>(
-    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+  auto* indices = static_cast<std::uint32_t*>(embree().SetNewGeometryBuffer(
+    geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
   mesh.device->check();
-  const float* x = static_cast<const float*>(rtcGetBufferData(vertices));
+  const float* x = static_cast<const float*>(embree().GetBufferData(vertices));
   for (std::uint32_t i = first; i < first + count; ++i)
   {
     const auto& triangle = mesh.model->triangles[i];
@@ -154,10 +154,10 @@ void attach(RayMesh& mesh, RTCBuffer vertices, std::uint32_t first, std::uint32_
     }
     mesh.inverseEdge[i] = solid && longest > 0 ? 1 / std::sqrt(longest) : 0;
   }
-  rtcSetGeometryUserData(geometry, &mesh);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(mesh.scene, geometry);
-  rtcReleaseGeometry(geometry);
+  embree().SetGeometryUserData(geometry, &mesh);
+  embree().CommitGeometry(geometry);
+  embree().AttachGeometry(mesh.scene, geometry);
+  embree().ReleaseGeometry(geometry);
   mesh.firstTriangle.push_back(first);
   mesh.cutOut.push_back(cutOut);
 }
@@ -198,20 +198,20 @@ RayMesh::~RayMesh()
 {
   if (this->scene)
   {
-    rtcReleaseScene(this->scene);
+    embree().ReleaseScene(this->scene);
   }
 }
 
 RayDevice::RayDevice()
-  : Handle(rtcNewDevice(nullptr))
+  : Handle(embree().NewDevice(nullptr))
 {
   if (!this->Handle)
   {
-    throw MachineError("Embree does not start (error " + std::to_string(int(rtcGetDeviceError(nullptr))) + ")");
+    throw MachineError("Embree does not start (error " + std::to_string(int(embree().GetDeviceError(nullptr))) + ")");
   }
 }
 
-RayDevice::~RayDevice() { rtcReleaseDevice(this->Handle); }
+RayDevice::~RayDevice() { embree().ReleaseDevice(this->Handle); }
 
 std::shared_ptr<RayDevice> RayDevice::shared()
 {
@@ -229,7 +229,7 @@ std::shared_ptr<RayDevice> RayDevice::shared()
 
 void RayDevice::check() const
 {
-  const RTCError error = rtcGetDeviceError(this->Handle);
+  const RTCError error = embree().GetDeviceError(this->Handle);
   if (error == RTC_ERROR_OUT_OF_MEMORY)
   {
     throw MachineError("not enough memory for the ray tracer's copy of the scene");
@@ -338,14 +338,14 @@ std::shared_ptr<const RayMesh> RayDevice::make(const Instance& instance, const R
   mesh->baked = !key.bake.empty();
   mesh->inverseEdge.resize(instance.model->triangles.size());
   measure(*mesh);
-  mesh->scene = rtcNewScene(this->Handle);
-  rtcSetSceneFlags(
+  mesh->scene = embree().NewScene(this->Handle);
+  embree().SetSceneFlags(
     mesh->scene, key.bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-  rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_MEDIUM);
+  embree().SetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_MEDIUM);
   RTCBuffer vertices = makeVertices(*mesh, mesh->baked ? &instance.world_from_object.linear : nullptr);
   attachAll(*mesh, key, vertices);
-  rtcReleaseBuffer(vertices);
-  rtcCommitScene(mesh->scene);
+  embree().ReleaseBuffer(vertices);
+  embree().CommitScene(mesh->scene);
   this->check();
   return mesh;
 }

@@ -2,9 +2,8 @@
 #ifndef dgtkRayMesh_h
 #define dgtkRayMesh_h
 
+#include "dgtkEmbree.h"
 #include "dgtkSceneState.h"
-
-#include <embree3/rtcore.h>
 
 #include <cstdint>
 #include <list>

@@ -248,7 +248,7 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
   this->Context.context.filter = Mode == TraceMode::Exact ? rayFilter : nullptr;
   this->Context.x = block.x;
   this->Context.y = block.y;
-  rtcIntersect16(this->Valid, this->Scene.handle(), &this->Context.context, &this->Packet);
+  embree().Intersect16(this->Valid, this->Scene.handle(), &this->Context.context, &this->Packet);
   for (int y = 0; y < block.height; ++y)
   {
     Hit* row = &buffer.at(block.x, block.y + y);

@@ -17,12 +17,12 @@ namespace dgtk
 RayScene::RayScene(std::shared_ptr<RayDevice> device, bool bare)
   : Device(std::move(device))
   , Bare(bare)
-  , Scene(rtcNewScene(this->Device->handle()))
+  , Scene(embree().NewScene(this->Device->handle()))
 {
   this->Device->check();
-  rtcSetSceneFlags(
+  embree().SetSceneFlags(
     this->Scene, bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-  rtcSetSceneBuildQuality(this->Scene, RTC_BUILD_QUALITY_MEDIUM);
+  embree().SetSceneBuildQuality(this->Scene, RTC_BUILD_QUALITY_MEDIUM);
 }
 
 RayScene::~RayScene()
@@ -31,10 +31,10 @@ RayScene::~RayScene()
   {
     if (placed.geometry)
     {
-      rtcReleaseGeometry(placed.geometry);
+      embree().ReleaseGeometry(placed.geometry);
     }
   }
-  rtcReleaseScene(this->Scene);
+  embree().ReleaseScene(this->Scene);
 }
 
 void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& camera_from_world)
@@ -52,8 +52,8 @@ void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& came
   {
     if (this->Instances.back().geometry)
     {
-      rtcDetachGeometry(this->Scene, unsigned(this->Instances.size() - 1));
-      rtcReleaseGeometry(this->Instances.back().geometry);
+      embree().DetachGeometry(this->Scene, unsigned(this->Instances.size() - 1));
+      embree().ReleaseGeometry(this->Instances.back().geometry);
     }
     this->Instances.pop_back();
   }
@@ -72,7 +72,7 @@ void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& came
     this->placeInstance(i);
     this->Reach = std::max(this->Reach, this->Instances[i].reach);
   }
-  rtcCommitScene(this->Scene);
+  embree().CommitScene(this->Scene);
   this->Device->check();
 }
 
@@ -81,18 +81,18 @@ void RayScene::setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& 
   Placed& placed = this->Instances[index];
   if (!mesh && placed.geometry)
   {
-    rtcDetachGeometry(this->Scene, unsigned(index));
-    rtcReleaseGeometry(placed.geometry);
+    embree().DetachGeometry(this->Scene, unsigned(index));
+    embree().ReleaseGeometry(placed.geometry);
     placed.geometry = nullptr;
   }
   if (mesh && mesh != placed.mesh)
   {
     if (!placed.geometry)
     {
-      placed.geometry = rtcNewGeometry(this->Device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcAttachGeometryByID(this->Scene, placed.geometry, unsigned(index));
+      placed.geometry = embree().NewGeometry(this->Device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+      embree().AttachGeometryByID(this->Scene, placed.geometry, unsigned(index));
     }
-    rtcSetGeometryInstancedScene(placed.geometry, mesh->scene);
+    embree().SetGeometryInstancedScene(placed.geometry, mesh->scene);
   }
   placed.mesh = mesh;
 }
@@ -115,8 +115,8 @@ void RayScene::placeInstance(std::size_t index)
   {
     matrix[i] = float(i < 9 ? linear.data()[i] : translation[i - 9]);
   }
-  rtcSetGeometryTransform(placed.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
-  rtcCommitGeometry(placed.geometry);
+  embree().SetGeometryTransform(placed.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+  embree().CommitGeometry(placed.geometry);
   const Eigen::Matrix3d inverse = linear.inverse();
   for (int i = 0; i < 9; ++i)
   {
@@ -214,7 +214,7 @@ void RayScene::addFans(const ExactRay& ray, std::vector<Hit>& hits) const
       RTCPointQueryContext context;
       rtcInitPointQueryContext(&context);
       FanQuery fan{ &mesh, hit.object, &hits };
-      rtcPointQuery(mesh.scene, &query, &context, &addToFan, &fan);
+      embree().PointQuery(mesh.scene, &query, &context, &addToFan, &fan);
     }
   }
 }
@@ -378,7 +378,7 @@ void traceRays(const RayScene& scene, const ExactRay* rays, unsigned int active,
       const auto lane = unsigned(__builtin_ctz(active));
       alignas(16) RTCRayHit query = makeQuery(rays[lane]);
       query.ray.id = lane;
-      rtcIntersect1(scene.handle(), &context.context, &query);
+      embree().Intersect1(scene.handle(), &context.context, &query);
     }
     return;
   }
@@ -403,7 +403,7 @@ void traceRays(const RayScene& scene, const ExactRay* rays, unsigned int active,
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect16(valid, scene.handle(), &context.context, &packet);
+  embree().Intersect16(valid, scene.handle(), &context.context, &packet);
 }
 
 bool isCoherent(const View& view)

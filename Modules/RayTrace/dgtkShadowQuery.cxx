@@ -91,7 +91,7 @@ public:
       packet.mask[i] = ~0U;
       packet.id[i] = unsigned(i);
     }
-    rtcOccluded16(valid, this->Scene.handle(), &context.context, &packet);
+    embree().Occluded16(valid, this->Scene.handle(), &context.context, &packet);
     unsigned int bits = 0;
     for (std::size_t i = 0; i < count; ++i)
     {

@@ -152,7 +152,7 @@ double SurfaceDistance::at(const Eigen::Vector3d& x_in_world) const
     query.radius = radiusOf(search, x);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(one.mesh->scene, &query, &context, &visit, &search);
+    embree().PointQuery(one.mesh->scene, &query, &context, &visit, &search);
     best = search.best;
   }
   return best;

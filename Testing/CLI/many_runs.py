@@ -11,7 +11,7 @@ from harness import DGTK
 BUILD = os.environ["DGTK_BUILD"]
 SERVER = os.path.join(BUILD, "lib", "libdgtk_many_runs.so")
 # What is opened on demand, by the name that it is asked for by (that of its ABI, the shortest with a version).
-OTHERS = os.environ.get("LD_PRELOAD") or min(glob.glob(os.path.join(BUILD, "lib", "libdgtkVerification.so.*")), key=len)
+OTHERS = os.environ.get("LD_PRELOAD") or ":".join(min(glob.glob(os.path.join(BUILD, "lib", f"libdgtk{name}.so.*")), key=len) for name in ("Verification", "Embree"))
 
 
 class ManyRuns:

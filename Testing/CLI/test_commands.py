@@ -147,7 +147,7 @@ class Pages(Case):
     def test_a_start_loads_no_library_of_what_few_commands_do(self):
         loaded = subprocess.run([DGTK], env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"}, capture_output=True, text=True, timeout=60).stdout
         self.assertIn("libdgtkPipeline", loaded)
-        for name in ("vtkRendering", "libGL", "libX11", "opencv", "fcl", "Bullet", "OpenImageIO", "assimp"):
+        for name in ("embree", "crypto", "vtkRendering", "libGL", "libX11", "opencv", "fcl", "Bullet", "OpenImageIO", "assimp"):
             self.assertNotIn(name, loaded)
 
     def test_every_table_has_the_rows_of_its_document(self):

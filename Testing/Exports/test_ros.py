@@ -5,6 +5,7 @@ import io
 import json
 import os
 import re
+import shutil
 import struct
 import zlib
 
@@ -410,6 +411,28 @@ class Ros(datasets.ExportCase):
         dataset = self.render(datasets._write(self.path("many"), "many", scene), "color,depth")
         for form in ("rosbag", "mcap"):
             self.refused("export", dataset, "--format", form, "-o", self.path("none"), status=2, says=("a_b", "eucm", "plumb_bob"))
+        self.assertFalse(os.path.exists(self.path("none")))
+
+    def test_what_no_recording_can_hold(self):
+        """Sizes of messages and seconds have 32 bits: datasets that say they have more are refused before anything is written."""
+        def edited(name, change):
+            copy = self.path(f"copy-{len(os.listdir(self.folder))}")
+            shutil.copytree(self.dataset, copy)
+            document = load_json(os.path.join(copy, name))
+            change(document)
+            self.write(os.path.join(copy, name), json.dumps(document))
+            return copy
+
+        most = 2**32 // 13
+        for says, held, none in (
+                (f"have more than {most} pixels, which the format cannot hold",
+                 edited("cameras.json", lambda document: document["cameras"][0].update(width=most, height=1)),
+                 edited("cameras.json", lambda document: document["cameras"][0].update(width=most + 1, height=1))),
+                ("frame 2 has no time: seconds have 32 bits", edited("manifest.json", lambda document: document.update(fps=2.0**-30)),
+                 edited("manifest.json", lambda document: document.update(fps=2.0**-31)))):
+            for form in ("rosbag", "mcap"):
+                self.dgtk("export", held, "--format", form, "-o", self.path(f"{form}-{os.path.basename(held)}"), "--quiet")
+                self.refused("export", none, "--format", form, "-o", self.path("none"), status=2, says=(form, says))
         self.assertFalse(os.path.exists(self.path("none")))
 
     def test_the_referee_reads_every_number_of_a_recording(self):

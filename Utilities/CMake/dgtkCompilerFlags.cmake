@@ -6,6 +6,11 @@ if(CMAKE_UNITY_BUILD)
 endif()
 # Only what is used is loaded: some modules are on demand (dgtkOnDemand.h).
 add_link_options(-Wl,--as-needed)
+# A start is the linker's work for some twenty libraries: what they call of their own needs no lookup, and they have fewer parts to map.
+add_link_options(-Wl,-z,noseparate-code)
+if(NOT DGTK_SANITIZE)
+  add_link_options(-Wl,-Bsymbolic-functions)
+endif()
 option(DGTK_WERROR "Treat warnings as errors" ON)
 if(DGTK_WERROR)
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Werror>)
