@@ -3,7 +3,8 @@
 
 #include "dgtkError.h"
 
-// The functions of one hash, which OpenSSL 3 calls deprecated: those for any hash set all of its ciphers up first, 2 ms a process.
+// The functions of one hash, which OpenSSL 3 calls deprecated: those for any hash set all of its ciphers up first,
+// 2 ms a process.
 #define OPENSSL_SUPPRESS_DEPRECATED
 #include <openssl/sha.h>
 

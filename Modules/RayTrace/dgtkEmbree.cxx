@@ -8,8 +8,8 @@ namespace
 dgtk::EmbreeCalls calls{ DGTK_EMBREE_FUNCTIONS(DGTK_EMBREE_ADDRESS) };
 #undef DGTK_EMBREE_ADDRESS
 
-/// Embree is loaded late, and so ends earlier than static objects of other libraries do: what they release then is
-/// gone.
+/// Embree is loaded late, and so ends earlier than static objects of other libraries: what these release is gone then.
+/// None may trace any more: a run must be over before main() returns.
 struct AtExit
 {
   ~AtExit()

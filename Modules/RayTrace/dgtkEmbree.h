@@ -9,8 +9,8 @@
 namespace dgtk
 {
 
-/// Embree's functions, by their names without `rtc`. The library dgtkEmbree gives them: with its threads' library
-/// Embree is a seventh of a start's page faults, and is loaded by the first device (see dgtkOnDemand.h).
+/// Embree's functions, by their names without `rtc`. The library dgtkEmbree gives them, which the first
+/// device loads (see dgtkOnDemand.h): Embree is a seventh of a start's page faults.
 #define DGTK_EMBREE_FUNCTIONS(row)                                                                                    \
   row(NewDevice) row(ReleaseDevice) row(GetDeviceError) row(NewScene) row(ReleaseScene) row(SetSceneFlags)            \
     row(SetSceneBuildQuality) row(CommitScene) row(NewBuffer) row(GetBufferData) row(ReleaseBuffer) row(NewGeometry)  \
@@ -20,7 +20,7 @@ namespace dgtk
 
 struct EmbreeCalls
 {
-#define DGTK_EMBREE_POINTER(name) decltype(&rtc##name) name;
+#define DGTK_EMBREE_POINTER(name) decltype(&rtc##name) name; // NOLINT(bugprone-macro-parentheses): a member
   DGTK_EMBREE_FUNCTIONS(DGTK_EMBREE_POINTER)
 #undef DGTK_EMBREE_POINTER
 };

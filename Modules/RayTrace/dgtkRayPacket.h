@@ -31,7 +31,7 @@ enum class TraceMode
 };
 
 /// Traces the primary rays of a view, 4 x 4 pixels at a time. One thread.
-class PacketTracer
+class PacketTracer // NOLINT(clang-analyzer-optin.performance.Padding): one a thread
 {
 public:
   static constexpr int lanes = 16;

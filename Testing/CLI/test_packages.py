@@ -168,7 +168,10 @@ class Pages(Case):
                 text = file.read()
             self.assertIn("License: BSD-3-Clause\n Redistribution and use", text)
             self.assertIn("Copyright: 2026, the DGTk developers", text)
-            self.assertEqual([], [line for line in text.split("Files: *")[1].splitlines()[3:] if not line.startswith(" ")])
+            everything, openssl, apache = text.split("Files: *")[1].rstrip("\n").split("\n\n")
+            self.assertEqual([], [line for line in everything.splitlines()[3:] if not line.startswith(" ")])
+            self.assertRegex(openssl, r"^Files: usr/lib/\*/libdgtkCore\.so\.\*\nCopyright: .*\n The OpenSSL Project Authors\nLicense: BSD-3-Clause and Apache-2\.0\nComment: ")
+            self.assertTrue(apache.startswith("License: Apache-2.0\n "))
             with gzip.open(unpacked("share", "doc", name, "changelog.Debian.gz"), "rt", encoding="utf-8") as file:
                 self.assertTrue(file.read().startswith(f"dgtk ({packages.field(made['packages'][name], 'Version')}) "))
 

@@ -19,7 +19,7 @@ namespace
 {
 constexpr const char* size[2] = { "96", "64" }; // pixels
 constexpr const char* layer = "depth";
-constexpr int lastFrame = 40; // half a second from the end when the first picture is there
+constexpr int lastFrame = 100; // far from the end when the first picture is there
 constexpr const char* firstPicture = "left/depth/000000.npy";
 constexpr int hashDigits = 64;
 constexpr const char* asEditor = "--editor";
@@ -58,16 +58,18 @@ int beEditor(int argc, char** argv)
 }
 
 /// A dgtk whose run is held when its first picture is there and in its journal, if a file "hold" is, which goes then.
-/// It goes on by moments until there: it does not end before it is looked at, and the window may be late.
+/// It goes on by moments until there: it does not end before it is looked at, and the window may be late. Such a moment
+/// is a wait of the shell's own: the start of a program that sleeps took longer than the whole run.
 QByteArray stoppingProgram(const QString& folder)
 {
   return QString(
-    "#!/bin/sh\ncd '%1' && [ -e hold ] && (\n"
+    "#!/bin/bash\ncd '%1' && [ -e hold ] && (\n"
+    "  exec 3<> <(:)\n"
     "  while kill -0 $$; do\n"
     "    kill -STOP $$\n"
     "    grep -qE '^[0-9a-f]{64}.*%3$' out/.dgtk-journal && [ ! -e out/manifest.json ] && rm hold && exit\n"
     "    kill -CONT $$\n"
-    "    sleep 0.01\n"
+    "    read -rt 0.005 -u 3\n"
     "  done) </dev/null >/dev/null 2>&1 &\n"
     "exec '%2' \"$@\"\n")
     .arg(folder, QString::fromLocal8Bit(qgetenv("DGTK")), firstPicture)

@@ -37,14 +37,13 @@ def word(old, new):
     return lambda data: data.replace(old.encode(), new.encode(), 1)
 
 
-def both(*edits):
-    """One error that several numbers share."""
+def several(*edits):
     def edit(data, share=1):
         for one in edits:
             data = one(data, share)
         return data
 
-    return stepped(edit, 0.0)
+    return stepped(edit, 1.0)
 
 
 def packed(kind, at, step):
@@ -139,15 +138,6 @@ def shifted(values):
     values = values.copy()
     values.flat[0] += 0.01
     return values
-
-
-def several(*edits):
-    def edit(data, share=1):
-        for one in edits:
-            data = one(data, share)
-        return data
-
-    return stepped(edit, 1.0)
 
 
 F = 43.45584412271571
@@ -268,7 +258,7 @@ PLANTS = {form: [Plant(*one) for one in rows] for form, rows in {
                        ("scanner", "sequences/00/calib.txt", number("Tr: ", 5e-8))],
     "rosbag": recording("dataset.bag", True), "mcap": recording("dataset.mcap", False, "recording"),
     "mvsnet": [("pose", "cams/00000000_cam.txt", number("1 0 0 ", 5e-8)), ("intrinsics", "cams/00000000_cam.txt", number("intrinsic\n", 5e-8)),
-               ("range", "cams/00000000_cam.txt", both(number("\n\n", 5e-8), number("192 ", 5e-8))), ("scores", "cams/pair.txt", number("\n3 3 ", 1e-3)),
+               ("range", "cams/00000000_cam.txt", several(number("\n\n", 5e-8), number("192 ", 5e-8))), ("scores", "cams/pair.txt", number("\n3 3 ", 1e-3)),
                ("depth", "rendered_depth_maps/00000001.pfm", last_bytes())],
     "nerf-synthetic": [("intrinsics", "transforms_train.json", number('"camera_angle_x": ', 5e-8)),
                        ("pose", "transforms_train.json", number(r'"transform_matrix":\[\[1.0,-0.0,-0.0,', 5e-8)),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bags read by ROS's own rosbag and its message classes; MCAP by a reader written from the specification."""
+import glob
 import hashlib
 import io
 import json
@@ -428,10 +429,14 @@ class Ros(datasets.ExportCase):
                 (f"have more than {most} pixels, which the format cannot hold",
                  edited("cameras.json", lambda document: document["cameras"][0].update(width=most, height=1)),
                  edited("cameras.json", lambda document: document["cameras"][0].update(width=most + 1, height=1))),
-                ("frame 2 has no time: seconds have 32 bits", edited("manifest.json", lambda document: document.update(fps=2.0**-30)),
-                 edited("manifest.json", lambda document: document.update(fps=2.0**-31)))):
-            for form in ("rosbag", "mcap"):
-                self.dgtk("export", held, "--format", form, "-o", self.path(f"{form}-{os.path.basename(held)}"), "--quiet")
+                ("frame 2 has no time: seconds have 32 bits", edited("manifest.json", lambda document: document.update(fps=2 / (2.0**32 - 2.5))),
+                 edited("manifest.json", lambda document: document.update(fps=2 / (2.0**32 - 1.5))))):
+            for form, messages in (("rosbag", messages_of_bag), ("mcap", messages_of_mcap)):
+                folder = self.path(f"{form}-{os.path.basename(held)}")
+                self.dgtk("export", held, "--format", form, "-o", folder, "--quiet")
+                if "time" in says:
+                    last = max(time for _, time, _ in messages(glob.glob(os.path.join(folder, "dataset.*"))[0]))
+                    self.assertLess(abs(last - (2**32 * 10**9 - 15 * 10**8)), 1000)  # nanoseconds of a double
                 self.refused("export", none, "--format", form, "-o", self.path("none"), status=2, says=(form, says))
         self.assertFalse(os.path.exists(self.path("none")))
 

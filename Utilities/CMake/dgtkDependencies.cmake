@@ -3,6 +3,9 @@ find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 # Of its archive one hash is taken: the library is 21,000 relocations at each start.
 set(OPENSSL_USE_STATIC_LIBS ON)
+if(NOT OPENSSL_CRYPTO_LIBRARY MATCHES "\\.a$")
+  unset(OPENSSL_CRYPTO_LIBRARY CACHE) # of a build folder that had the library
+endif()
 find_package(OpenSSL REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PNG 1.6 REQUIRED)

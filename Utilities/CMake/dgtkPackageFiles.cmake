@@ -22,7 +22,10 @@ function(dgtk_write_copyright file)
   string(REGEX REPLACE "\n" "\n " terms " ${terms}")
   string(REPLACE "\n \n" "\n .\n" terms "${terms}")
   file(WRITE "${file}" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\nUpstream-Name: DGTk\n\n"
-    "Files: *\nCopyright: ${holder}\nLicense: BSD-3-Clause\n${terms}\n")
+    "Files: *\nCopyright: ${holder}\nLicense: BSD-3-Clause\n${terms}\n\n"
+    "Files: usr/lib/*/libdgtkCore.so.*\nCopyright: ${holder}\n The OpenSSL Project Authors\nLicense: BSD-3-Clause and Apache-2.0\n"
+    "Comment: SHA-256 is linked from OpenSSL's archive.\n\n"
+    "License: Apache-2.0\n /usr/share/common-licenses/Apache-2.0 has it.\n")
 endfunction()
 
 function(dgtk_write_changelog file)

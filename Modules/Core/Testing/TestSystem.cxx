@@ -84,7 +84,8 @@ TEST(System, TheHeapHasLargePages)
   const bool isOther = false;
 #endif
   const int expected = !isLimited && !isOther && knowsLargePages() ? 0 : 2;
-  GTEST_FLAG_SET(death_test_style, "threadsafe"); // a process whose heap is new
+  GTEST_FLAG_SET(death_test_style, "threadsafe"); // a process whose heap is new, and as users have it
+  ::unsetenv("GLIBC_TUNABLES");
   EXPECT_EXIT(std::_Exit(prepareAndLook()), testing::ExitedWithCode(expected), "");
   for (const auto kind : { RLIMIT_AS, RLIMIT_DATA })
   {
