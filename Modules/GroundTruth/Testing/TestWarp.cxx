@@ -4,9 +4,11 @@
 #include "dgtkSyntheticScene.h"
 #include "dgtkWarp.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 using namespace dgtk;
 using namespace dgtk::test;
@@ -345,6 +347,41 @@ TEST(Warp, ALensThatIsAPinholeIsWarpedAsIt)
   }
   EXPECT_LE(differing, int(image.rgb.size() / 100)) << "edges of splats";
   EXPECT_NEAR(double(image.holeCount), double(expected.holeCount), 3);
+}
+
+/// What lies close behind a plane that runs away to the right and down shows as much where the camera turns about its
+/// axis.
+TEST(Warp, ALensThatIsAPinholeSeesTheSameBehindASlantedPlane)
+{
+  const Eigen::Vector3d normal = Eigen::Vector3d(-0.8, -0.5, -1).normalized();
+  const View from = viewAt({ 0, 0, 0 });
+  const WarpSource plane = [&](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    wall(5)(
+      [&](int x, int y, const WarpSample&)
+      {
+        const Eigen::Vector3d ray = from.model->rayThrough({ x + 0.5, y + 0.5 }).direction;
+        const double depth = normal.z() * 5 / normal.dot(ray);
+        const std::uint32_t size = splatIndex(depth * ray.norm(), normal, 0.1, 1000);
+        visit(x, y, { { 0, 0, 0, 255 }, depth, size });
+        visit(x, y, { { 0, 0, 255, 255 }, depth + 0.02, size });
+      });
+  };
+  View lens = from;
+  lens.model = hideLinear(lens.model);
+  for (const double roll : { 0.3, 0.7, 1.2, 1.9, 2.5 })
+  {
+    View there = viewAt({ 0.1, 0.05, 2 });
+    const Eigen::Matrix3d R = Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    there.camera_from_world = { R, R * there.camera_from_world.translation };
+    const auto behind = [&](const View& first)
+    {
+      const WarpedImage image = warpLayeredDepth(plane, first, there);
+      return std::accumulate(image.rgb.begin(), image.rgb.end(), 0.0);
+    };
+    EXPECT_GT(behind(from), 1000) << roll;
+    EXPECT_NEAR(behind(lens) / behind(from), 1, 0.05) << roll;
+  }
 }
 
 TEST(Warp, FromAFisheyeToAPinholeAndBack)
