@@ -37,15 +37,6 @@ def word(old, new):
     return lambda data: data.replace(old.encode(), new.encode(), 1)
 
 
-def several(*edits):
-    def edit(data, share=1):
-        for one in edits:
-            data = one(data, share)
-        return data
-
-    return stepped(edit, 1.0)
-
-
 def packed(kind, at, step):
     """Adds to a number of a binary file."""
     def edit(data, share=1):
@@ -138,6 +129,15 @@ def shifted(values):
     values = values.copy()
     values.flat[0] += 0.01
     return values
+
+
+def several(*edits):
+    def edit(data, share=1):
+        for one in edits:
+            data = one(data, share)
+        return data
+
+    return stepped(edit, 1.0)
 
 
 F = 43.45584412271571
