@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 DGTK = os.environ["DGTK"]
@@ -56,6 +57,22 @@ class Case(unittest.TestCase):
         for text in [says] if isinstance(says, str) else says:
             self.assertIn(text, lines[0])
         return lines[0]
+
+    def interrupted(self, words, folder, how, when, tries=5):
+        """Starts dgtk with `words` and sends `how` as soon as `when()` holds; returns its exit status and what it said.
+
+        On a busy machine a run may be at its end before it is looked at again; it is then begun anew, in an empty folder.
+        """
+        for _ in range(tries):
+            shutil.rmtree(folder, ignore_errors=True)
+            process = subprocess.Popen([DGTK, *words], stderr=subprocess.PIPE, text=True)
+            while process.poll() is None and not when():
+                time.sleep(0.002)
+            process.send_signal(how)
+            _, errors = process.communicate(timeout=120)
+            if process.returncode != 0:
+                return process.returncode, errors
+        self.fail(f"dgtk {' '.join(words)}: ran to its end {tries} times, {how.name} or not")
 
     def assert_same_files(self, first, second, ignore=()):
         """Both folders hold the same files with the same bytes."""

@@ -6,7 +6,6 @@ import shutil
 import signal
 import struct
 import subprocess
-import time
 
 from harness import DGTK, Case, digests, load_json, main
 
@@ -123,13 +122,9 @@ class Pack(Case):
     def test_an_interrupted_packed_run_is_resumed(self):
         self.dgtk("render", self.scene, "-o", self.path("whole"), "--pack", *LAYERS)
         out = self.path("cut")
-        run = subprocess.Popen([DGTK, "render", self.scene, "-o", out, "--pack", *LAYERS])
-        while run.poll() is None and not os.path.exists(os.path.join(out, "inputs", "pictures", "sky.ppm")):
-            time.sleep(0.002)
-        run.send_signal(signal.SIGKILL)
-        run.wait()
-        if not os.path.exists(os.path.join(out, "manifest.json")):
-            self.refused("render", self.scene, "-o", out, "--resume", *LAYERS, status=2, says="cut")
+        self.interrupted(["render", self.scene, "-o", out, "--pack", *LAYERS], out, signal.SIGKILL,
+                         lambda: os.path.exists(os.path.join(out, "inputs", "pictures", "sky.ppm")))
+        self.refused("render", self.scene, "-o", out, "--resume", *LAYERS, status=2, says="cut")
         self.dgtk("render", self.scene, "-o", out, "--pack", "--resume", *LAYERS)
         self.assert_same_files(self.path("whole"), out)
 

@@ -204,17 +204,11 @@ class Render(Case):
         for number, how in enumerate(3 * (signal.SIGINT,) + (signal.SIGKILL,)):
             with self.subTest(how, number=number):
                 folder = self.path(f"{how.name}{number}")
-                process = subprocess.Popen([DGTK, "render", SCENE, "-o", folder, *options], stderr=subprocess.PIPE, text=True)
-                deadline = time.monotonic() + 60
-                while time.monotonic() < deadline and process.poll() is None:
-                    # pictures are recorded in their order: the first one is whole
-                    if "matrix/color/000001.png" in recorded_files(folder) and povray_processes(folder):
-                        process.send_signal(how)
-                        break
-                    time.sleep(0.002)
-                _, errors = process.communicate(timeout=60)
+                # pictures are recorded in their order: the first one is whole
+                status, errors = self.interrupted(["render", SCENE, "-o", folder, *options], folder, how, lambda: (
+                    "matrix/color/000001.png" in recorded_files(folder) and povray_processes(folder)))
                 if how == signal.SIGINT:
-                    self.assertEqual(process.returncode, 75, errors)
+                    self.assertEqual(status, 75, errors)
                     self.assertIn("--resume", errors)
                     self.assertFalse(os.path.exists(os.path.join(folder, ".povray")))
                 deadline = time.monotonic() + 5
