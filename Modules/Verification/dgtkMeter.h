@@ -2,6 +2,7 @@
 #ifndef dgtkMeter_h
 #define dgtkMeter_h
 
+#include "dgtkDifference.h"
 #include "dgtkThreadPool.h"
 #include "dgtkVerification.h"
 

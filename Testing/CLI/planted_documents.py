@@ -70,6 +70,17 @@ def boxes():
 
     yield Plant("boxes", "pose", 1e-12, lambda data, factor: data.document("left/boxes/000000.json", scale(factor)))
 
+    def mirrored(document):
+        turned = document["objects"][0]
+        turned["R"] = (-np.array(turned["R"])).tolist()
+        turned["scale"] = (-np.array(turned["scale"])).tolist()
+
+    def left_out(document):
+        document["objects"][0].update(R=None, t=None, scale=None)
+
+    for edit in (mirrored, left_out):
+        yield Plant("boxes", "pose", 1e-12, lambda data, _, edit=edit: data.document("parallel/boxes/000000.json", edit), small=False)
+
 
 def keypoints():
     def places(factor):

@@ -4,6 +4,7 @@ be named by that row and no other, and one of a tenth of it must pass.
 
 One dataset of all layers, all formats and all kinds of cameras is rendered once; errors of different rows are planted in it
 together, each at a pixel of its own, so that a few runs of verify judge them all."""
+import collections
 import json
 import os
 import shutil
@@ -12,7 +13,7 @@ import tempfile
 
 import numpy as np
 
-from harness import DGTK, Case, main
+from harness import DGTK, Case, load_json, main
 from planted_documents import boxes, cameras, clouds, files, keypoints, masks, metadata, models, poses, tracks
 from planted_pixels import (calibrations, closed, covered, depths, geometry, labels, layered, mattes, pairs,
                             pictures_without_background)
@@ -132,6 +133,31 @@ class Referee(Case):
             with self.subTest(row=row):
                 self.assertGreater(len(planted), 10)
                 self.assertGreaterEqual(rows[row]["bad"], 0.9 * len(planted))
+
+    def test_what_is_no_number_is_wrong_in_every_channel(self):
+        """A maximum may lose what compares with nothing."""
+        unchecked = {(kind["layer"], kind["format"]) for kind in self.verify(os.path.join(self.folders, "all"), status=0)[0]["not_checked"]}
+        data, planted = self.copy("all", "nan"), collections.Counter()
+        for channel, (camera, frame) in enumerate((("left", 0), ("right", 0), ("left", 1))):
+            inside = data.interior(camera, frame)
+            for file in load_json(data.path("manifest.json"))["files"]:
+                layer, kind = file.get("layer"), file["path"].rsplit(".", 1)[1]
+                if (file.get("camera"), file.get("frame")) != (camera, frame) or kind not in ("npy", "exr", "pfm", "flo", "dgd") or (layer, kind) in unchecked:
+                    continue
+                image = data.load(file["path"])
+                if image.dtype.kind == "f" and image.shape[:2] == inside.shape and image.shape[2] > channel:
+                    classes = file["path"][:-3] + "png"
+                    seen = inside & (data.load(classes)[..., 0] == 1) if os.path.exists(data.path(classes)) else inside
+                    for y, x in np.argwhere(seen)[:1].tolist():
+                        data.change(file["path"], (x, y), lambda v: np.where(np.arange(len(v)) == channel, np.nan, v))
+                        planted[file["path"].split("/")[1]] += 1
+        data.accept()
+        _, rows = self.verify(data.root, status=1)
+        bad = collections.Counter()
+        for (_, layer), row in rows.items():
+            bad[layer.split(".")[0]] += row["bad"]
+        self.assertGreater(planted.total(), 60)
+        self.assertEqual({layer: count for layer, count in planted.items() if bad[layer] < count}, {})
 
     def test_documents(self):
         for plant in cameras():

@@ -11,6 +11,7 @@ import zlib
 
 import numpy
 
+from dataset_edits import Edits
 from harness import SCENES, Case, load_json, main
 
 LAYERS = "color,depth,distance,position,normal,uv,objectcoords,objects,parts,triangles,calibration,classes"
@@ -407,6 +408,46 @@ class Placed(Case):
                 self.verified(offset, layers, "--frames", "0:1", "--pairs", "middle:raised,turned:right")
 
 
+class AllAround(Case):
+    """A panorama in a room, in which something moves: two of its columns look along the plane of the camera, where depth is 0."""
+    COLUMN = 14
+
+    def rendered(self, unit):
+        crate = os.path.join(SCENES, "..", "Models", "crate.ac")
+        eye = [3 * unit, unit, 2 * unit]
+        scene = {"objects": [{"name": "room", "model": crate, "scale": [40 * unit] * 3},
+                             {"name": "thing", "model": crate, "scale": [unit] * 3,
+                              "position": {"keys": [[0, [0, unit, 2 * unit]], [1, [0.2 * unit, 1.1 * unit, 2.3 * unit]]]}}],
+                 "cameras": [{"name": "around", "model": "equirectangular", "width": 58, "height": 30, "near": 0.01 * unit, "far": 100 * unit,
+                              "eye": eye, "lookAt": [eye[0], eye[1], 0]}]}
+        self.dgtk("render", self.write("scene.json", json.dumps(scene)), "-o", self.path("set"), "--quiet", "--replace", "--frames", "0",
+                  "--layers", "depth,distance,position,objectcoords,objects,flow_forward,sceneflow", "--objects-format", "npy", "--flow_forward-format", "npy")
+        return Edits(self.path("set"))
+
+    def test_what_is_beside_the_camera_is_judged(self):
+        data = self.rendered(1)
+        self.dgtk("verify", data.root)
+        rows = {("geometry", layer): lambda v: 2 * v for layer in ("distance", "position", "objectcoords")}
+        rows["motion", "flow_forward"] = lambda v: v + 3
+        for (_, layer), change in rows.items():
+            for y in range(8, 22):
+                data.change(f"around/{layer}/000000.npy", (self.COLUMN, y), change)
+        data.accept()
+        report = json.loads(self.dgtk("verify", data.root, "--json", "--check", "geometry,motion", status=1).stdout)
+        self.assertEqual({(row["check"], row["layer"]) for row in report["residuals"] if row["breach"]}, set(rows))
+
+    def test_of_every_unit(self):
+        for unit in (1e-7, 1000, 1e6):
+            with self.subTest(unit):
+                data = self.rendered(unit)
+                self.dgtk("verify", data.root)
+                objects = data.load("around/objects/000000.npy")[..., 0]
+                y, x = numpy.argwhere(objects == 2)[0].tolist()
+                data.change("around/sceneflow/000000.npy", (x, y), lambda v: 1.01 * v)
+                data.accept()
+                self.assertIn("layer sceneflow", self.dgtk("verify", data.root, "--check", "motion", status=1).stderr)
+
+
 class Refusals(Case):
     def test_not_a_dataset(self):
         self.refused("verify", self.folder, status=3, says="is not a dataset")
@@ -417,6 +458,8 @@ class Refusals(Case):
     def test_usage(self):
         self.refused("verify", status=2)
         self.refused("verify", self.folder, "--threads", "0", status=2, says="--threads")
+        for option in (("--check", "depth"), ("--write",)):
+            self.refused("verify", self.folder, "--export", self.path("export"), *option, status=2, says="--export: an export has neither")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 #include "dgtkCheck.h"
 #include "dgtkJsonFile.h"
 #include "dgtkMasks.h"
+#include "dgtkUpright.h"
 #include "dgtkWideCanvas.h"
 
 #include <algorithm>
@@ -158,11 +159,12 @@ private:
   void number(Meter& meter, const std::string& key, double found, double expected, double scale = 1) const
   {
     meter.add(found == expected ? 0 : (found - expected) / scale,
-      [&]
-      {
-        return Offender{ this->File, -1, -1, "object " + std::to_string(this->Id) + ' ' + key + ' ' + numberText(found),
-          numberText(expected) };
-      });
+      [&] { return this->offender(key, numberText(found), numberText(expected)); });
+  }
+
+  Offender offender(const std::string& key, const std::string& found, const std::string& expected) const
+  {
+    return { this->File, -1, -1, "object " + std::to_string(this->Id) + ' ' + key + ' ' + found, expected };
   }
 
   void box(Meter& meter, const std::string& key, const Json& found, const Extent& expected) const
@@ -310,9 +312,13 @@ private:
     Eigen::MatrixXd expected(3, 4);
     expected << camera_from_object.linear, camera_from_object.translation;
     this->matrix("matrix", jsonMatrix(object.at("matrix"), 3, 4), expected);
-    if (!object.at("R").is_null())
+    const bool rotation = !object.at("R").is_null();
+    this->Pose.equal(maySay(rotation, largestCosine(camera_from_object.linear)),
+      [&] { return this->offender("R", rotation ? "a rotation" : "null", "the other"); });
+    if (rotation)
     {
       const Eigen::Matrix3d R = jsonMatrix(object.at("R"), 3, 3);
+      this->Pose.equal(R.determinant() > 0, [&] { return this->offender("R", "a mirroring", "a rotation"); });
       const Eigen::Vector3d scale = jsonVector(object.at("scale"));
       this->matrix("R", R * R.transpose(), Eigen::Matrix3d::Identity());
       this->matrix("R diag(scale)", R * scale.asDiagonal(), camera_from_object.linear);

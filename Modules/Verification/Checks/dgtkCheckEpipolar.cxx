@@ -173,7 +173,7 @@ private:
       const Eigen::Vector3d found(
         points.at<double>(0, column) / w, points.at<double>(1, column) / w, points.at<double>(2, column) / w);
       const auto& [x, expected, weight] = row[i];
-      meter.add(weight * (found - expected).norm() / this->Size / this->Owner.eye().farness(expected.z()),
+      meter.add(weight * (found - expected).norm() / this->Size / this->Owner.eye().farness(expected),
         [&, x = x, expected = expected]
         {
           const Eigen::Vector3d from = this->Owner.eye().toWorld(found);
@@ -215,7 +215,7 @@ void checkEpipolar(Picture& picture, Results& results)
           const Eigen::Vector2d p = images.values->at2(x, y);
           const double distance = epipolarDistance(picture.eye(), pair.other->eye(), centreOf(x, y), p);
           const Target target = targets.at(x, y);
-          row.add(distance / (target.surface ? picture.eye().farness(target.here.z()) : 1),
+          row.add(distance / (target.surface ? picture.eye().farness(target.here) : 1),
             [&] { return images.values->offender(x, y, numbersText(p.data(), 2), "a point of the epipolar line"); });
         }
       });

@@ -140,7 +140,7 @@ void checkForwardBackward(Picture& picture, Results& results)
           continue;
         }
         const double error = (*returned - centreOf(x, y)).norm() - roundingFactor * rounding;
-        row.add(std::max(0.0, error) / picture.eye().farness(picture.point(x, y).z()),
+        row.add(std::max(0.0, error) / picture.eye().farness(picture.point(x, y)),
           [&]
           {
             return forward->offender(x, y, numbersText(flow.data(), 2),

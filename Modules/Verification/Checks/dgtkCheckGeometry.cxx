@@ -41,8 +41,7 @@ double largest(const double* found, const double* expected, int count)
   double most = 0;
   for (int i = 0; i < count; ++i)
   {
-    const double difference = std::abs(found[i] - expected[i]);
-    most = difference <= most ? most : difference; // NaN stays
+    most = larger(most, std::abs(found[i] - expected[i]));
   }
   return most;
 }
@@ -163,7 +162,7 @@ double barycentricsOf(const GeometryPoint& p, const double* found, double* expec
   p.sight.corners(p.hit, corner);
   const Eigen::Vector3d point = found[0] * corner[0] + found[1] * corner[1] + found[2] * corner[2];
   const double size = std::max({ p.x_in_camera.norm(), corner[0].norm(), corner[1].norm(), corner[2].norm() });
-  return std::max((point - p.x_in_camera).norm() / size, std::abs(found[0] + found[1] + found[2] - 1));
+  return larger((point - p.x_in_camera).norm() / size, std::abs(found[0] + found[1] + found[2] - 1));
 }
 
 /// Of float64 files, as of depth. Of float32 files one rounding of 6e-8, or some of several channels, which the way
@@ -217,7 +216,7 @@ void checkPixel(Picture& picture, const Surfaces& surfaces, const PictureFile& f
   {
     const Eigen::Vector3d point = picture.point(x, y);
     return layer.measure({ picture.sight(x, y), surface, centreOf(x, y), point }, found, expected) /
-           picture.eye().farness(point.z());
+           (layer.measure == &inverseDepthOf ? picture.eye().farness(point.z()) : picture.eye().farness(point));
   };
   double error = measure(hit);
   if (!(error <= meter.Tolerance) && meter.Bad < usualPatience)

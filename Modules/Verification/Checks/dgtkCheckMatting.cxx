@@ -25,12 +25,13 @@ struct MattingSet
   PicturePointer trimap;
 };
 
-/// The object of a folder "matting_<name>", or "matting_#<id>" where the name holds a slash.
+/// The object of a folder "matting_<name>", or "matting_#<id>" where the name holds a slash or begins with #.
 std::uint32_t objectOf(const Dataset& dataset, const std::string& layer)
 {
   const std::string name = layer.substr(std::string("matting_").size());
   const auto found = std::find_if(dataset.objects().begin(), dataset.objects().end(),
-    [&](const ObjectRecord& object) { return object.name == name || '#' + std::to_string(object.id) == name; });
+    [&](const ObjectRecord& object)
+    { return name[0] == '#' ? '#' + std::to_string(object.id) == name : object.name == name; });
   return found == dataset.objects().end() ? 0 : found->id;
 }
 

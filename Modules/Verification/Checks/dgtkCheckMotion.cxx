@@ -96,9 +96,8 @@ private:
       error =
         std::isnan(difference) ? infinite : std::max(error, difference - this->File.rounding(found[c]) - target.slack);
     }
-    const double unit =
-      this->scale(target) * this->Owner.eye().farness(target.here.z()) *
-      (this->ThePair.kind == PairKind::Motion ? 1 : this->ThePair.other->eye().farness(target.there.z()));
+    const double unit = this->scale(target) * this->Owner.eye().farness(target.here) *
+                        (this->ThePair.kind == PairKind::Motion ? 1 : this->ThePair.other->eye().farness(target.there));
     // What moves fast, or is seen by many pixels, moves in the time that its own time may be off.
     return error > motionTolerance * unit && error < infinite
              ? std::max(0.0, error - this->Targets.moves(x, y, hit, target)) / unit
@@ -149,7 +148,8 @@ private:
     if (this->ThePair.kind == PairKind::Motion)
     {
       const Eye& eye = this->Owner.eye();
-      return (eye.pinhole() ? target.here.z() : 1) / eye.record().K.topLeftCorner<2, 2>().diagonal().maxCoeff();
+      const double away = eye.pinhole() ? target.here.z() : eye.linear() ? 1 : target.here.norm();
+      return away / eye.record().K.topLeftCorner<2, 2>().diagonal().maxCoeff();
     }
     const double size = std::max(this->ThePair.other->eye().width(), this->ThePair.other->eye().height());
     const double far = target.pixel.cwiseAbs().maxCoeff() / size;

@@ -112,7 +112,7 @@ public:
       const Eye& eye = look.sight->eye();
       Eigen::Vector2d expected(std::nan(""), std::nan(""));
       eye.project(eye.toCamera(look.x_in_world), expected);
-      meter.add((expected - track.pixel).norm() / eye.farness(eye.toCamera(look.x_in_world).z()),
+      meter.add((expected - track.pixel).norm() / eye.farness(eye.toCamera(look.x_in_world)),
         [&] { return this->offender(index, numbersText(track.pixel.data(), 2), numbersText(expected.data(), 2)); });
     }
     const Eigen::Vector2d centre = point.track[0].pixel.array().floor() + 0.5;
@@ -244,7 +244,7 @@ private:
     const Eigen::Vector3d unit = sight.normal(point.hit).stableNormalized();
     const double side = unit.dot(sight.eye().ray(point.track[0].pixel).direction) > 0 ? -1 : 1;
     const Eigen::Vector3d expected = side * (sight.eye().record().R.transpose() * unit);
-    meter.add((found - expected).cwiseAbs().maxCoeff(),
+    meter.add(apart(found, expected),
       [&]
       {
         return Offender{ file, -1, -1, "vertex " + std::to_string(index) + " normal " + numbersText(found.data(), 3),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCheck.h"
+#include "dgtkUpright.h"
 
 #include <Eigen/LU>
 
@@ -14,9 +15,6 @@ namespace
 {
 /// Part of the largest number of a matrix: products of two placements.
 constexpr double posesTolerance = 1e-12;
-/// Cosines between axes: up to the first an object is not sheared for certain, from the second on it is.
-constexpr double upright = 5e-10;
-constexpr double leaning = 2e-9;
 
 class PoseCheck
 {
@@ -37,8 +35,8 @@ public:
     this->matrix("t", this->Record.t, this->World.translation);
     this->TheMeter.equal(this->Record.visible == this->Visible, [&]
       { return this->offender("visible", this->Record.visible ? "true" : "false", this->Visible ? "true" : "false"); });
-    const double cosine = this->largestCosine();
-    this->TheMeter.equal(this->Record.rigid ? cosine < leaning : !(cosine < upright),
+    const double cosine = largestCosine(this->World.linear);
+    this->TheMeter.equal(maySay(this->Record.rigid, cosine),
       [&] { return this->offender("R", this->Record.rigid ? "a rotation" : "null", "the other"); });
     if (this->Record.rigid && cosine < leaning)
     {
@@ -54,20 +52,6 @@ public:
   }
 
 private:
-  /// Between two axes; not-a-number where one has no length.
-  double largestCosine() const
-  {
-    double largest = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-      const Eigen::Vector3d a = this->World.linear.col(i);
-      const Eigen::Vector3d b = this->World.linear.col((i + 1) % 3);
-      const double cosine = std::abs(a.dot(b)) / (a.norm() * b.norm());
-      largest = std::isnan(cosine) || cosine > largest ? cosine : largest;
-    }
-    return largest;
-  }
-
   Offender offender(const std::string& key, const std::string& found, const std::string& expected) const
   {
     const std::string who =

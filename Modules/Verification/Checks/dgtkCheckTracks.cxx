@@ -224,7 +224,7 @@ private:
       meter.skip();
       return;
     }
-    meter.add(error / std::max(1.0, beside * beside) / eye.farness(look.point.x_in_camera.z()), where);
+    meter.add(error / std::max(1.0, beside * beside) / eye.farness(look.point.x_in_camera), where);
   }
 
   /// As near to the camera's plane, whether a point projects is a matter of rounding.

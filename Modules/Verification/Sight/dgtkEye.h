@@ -61,6 +61,11 @@ public:
     constexpr double most = 1000;
     return std::max(1.0, this->Record.t.norm() / (most * std::abs(depth)));
   }
+  /// The same of a point, camera frame: of a model that is not linear its distance counts, as its depth may be 0.
+  double farness(const Eigen::Vector3d& x_in_camera) const
+  {
+    return this->farness(this->linear() ? x_in_camera.z() : x_in_camera.norm());
+  }
 
   /// The same camera elsewhere.
   Eye movedTo(const Rigid3& camera_from_world) const

@@ -46,7 +46,7 @@ public:
     const SampledPixel& pixel = this->at(x, y);
     const auto number = [&](const std::map<std::uint32_t, int>& of)
     { return of.count(id) > 0 ? double(of.at(id)) / this->all() : 0; };
-    const double error = std::max(0.0, std::abs(share - number(pixel.counts)) - rounding);
+    const double error = beyond(std::abs(share - number(pixel.counts)), rounding);
     if (error > meter.Tolerance && error <= number(pixel.doubtful) + meter.Tolerance)
     {
       meter.skip();

@@ -56,6 +56,23 @@ TEST(Slacks, RectifiedPairs)
   }
 }
 
+/// Where left and right have changed sides one frame later, there is no disparity of then.
+TEST(Slacks, RectifiedPairsThatChangeSides)
+{
+  const std::string standing = R"(, "position": {"keys": [[0, [0, 0, 0]], [1, [0, 0, 0]]]})";
+  for (const bool changed : { false, true })
+  {
+    HandMade made({ wallModel(2) }, { standing }, { "a", "b" });
+    made.camera(1).t.x() = -0.1;
+    made.later().t.x() = changed ? -0.1 : 0;
+    CameraRecord& other = made.later();
+    other.name = "b";
+    other.t.x() = changed ? 0 : -0.1;
+    made.image("a/disparity_forward/000000.npy", 1, [&](int, int, int) { return changed ? -5 : 5; });
+    EXPECT_EQ(made.verify("epipolar", "").bad, changed ? 1u : 0u);
+  }
+}
+
 /// The tolerance grows as rays become parallel; those that are say nothing of the depth.
 TEST(Slacks, AnglesOfTriangulation)
 {

@@ -24,17 +24,16 @@ HandMade::HandMade(
   const std::vector<std::string>& models, const std::vector<std::string>& more, const std::vector<std::string>& cameras)
 {
   std::string objects;
-  std::vector<ObjectRecord> records;
   for (std::size_t i = 0; i < models.size(); ++i)
   {
     const std::string name = 'o' + std::to_string(i + 1);
     writeFile(this->Folder.path(name + ".obj"), models[i]);
     objects += std::string(i > 0 ? "," : "") + R"({"name": ")" + name + R"(", "model": ")" + name + R"(.obj")" +
                (i < more.size() ? more[i] : "") + '}';
-    records.emplace_back();
-    records.back().id = std::uint32_t(i + 1);
-    records.back().name = name;
-    records.back().classId = 1;
+    ObjectRecord& record = this->Objects.emplace_back();
+    record.id = std::uint32_t(i + 1);
+    record.name = name;
+    record.classId = 1;
   }
   std::string views;
   for (const std::string& name : cameras)
@@ -51,7 +50,7 @@ HandMade::HandMade(
     this->Cameras.push_back(record);
   }
   this->file("scene.json", R"({"objects": [)" + objects + R"(], "cameras": [)" + views + "]}");
-  this->file("objects.json", objectsText(records));
+  this->file("objects.json", objectsText(this->Objects));
 }
 
 CameraRecord& HandMade::later()
@@ -98,6 +97,7 @@ std::unique_ptr<Dataset> HandMade::dataset()
     file.sha256 = std::string(64, '0');
   }
   writeFile(this->Folder.path("cameras.json"), camerasText(this->Cameras));
+  writeFile(this->Folder.path("objects.json"), objectsText(this->Objects));
   writeFile(this->Folder.path("manifest.json"), manifestText(this->TheManifest));
   auto dataset = std::make_unique<Dataset>(this->Folder.path(), 1);
   for (const Dataset::Problem& problem : dataset->problems())

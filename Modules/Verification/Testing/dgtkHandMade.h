@@ -30,6 +30,8 @@ public:
 
   /// A camera at frame 0, to be changed.
   CameraRecord& camera(std::size_t index = 0) { return this->Cameras[index]; }
+  /// What objects.json says of an object, to be changed.
+  ObjectRecord& object(std::size_t index) { return this->Objects[index]; }
   /// The first camera again, at frame 1.
   CameraRecord& later();
   /// "a/normal/000000.npy", of these values; `narrow`: of float32.
@@ -45,6 +47,7 @@ public:
 private:
   TemporaryFolder Folder;
   std::vector<CameraRecord> Cameras;
+  std::vector<ObjectRecord> Objects;
   Manifest TheManifest;
 };
 
