@@ -42,6 +42,7 @@ DatasetScenes::DatasetScenes(const std::string& folder, const DatasetSelection& 
   }
   this->Hash = Sha256::ofFile(Folder(folder).fileAt(manifestName));
   SceneOfMany scene;
+  scene.count = static_cast<int>(names.size());
   for (const std::string& name : names)
   {
     scene.largestObject = std::max(scene.largestObject, largestObjectIn(folder + '/' + name));

@@ -41,6 +41,7 @@ struct SceneOfMany
 {
   std::string name = {};           ///< its folder; cameras are then called NAME/CAMERA. "": there are no others
   int place = 0;                   ///< among the scenes, from 0
+  int count = 1;                   ///< of the scenes
   std::size_t shotsBefore = 0;     ///< shots of the scenes before
   std::uint32_t largestObject = 0; ///< the largest object id of all scenes
 };
@@ -187,6 +188,8 @@ class DGTKEXPORT_EXPORT SafeNames
 public:
   /// The name of an original, the same for the same.
   std::string of(const std::string& original);
+  /// From now on no original has this name; of safe characters.
+  void reserve(const std::string& name) { this->Taken[name]; }
   /// Of one that was asked for before; throws std::out_of_range otherwise.
   const std::string& known(const std::string& original) const { return this->Given.at(original); }
 

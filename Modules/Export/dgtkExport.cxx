@@ -57,6 +57,10 @@ ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& 
   {
     return ExportRun(request, callbacks).execute();
   }
+  for (const std::string& scene : scenes) // none is begun before all are known to be sayable
+  {
+    static_cast<void>(ExportRun(sceneExport(request, scene), {}));
+  }
   ExportResult all;
   for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)
   {

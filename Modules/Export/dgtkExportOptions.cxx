@@ -187,7 +187,7 @@ DatasetSplit splitOf(const std::string& part)
 std::vector<DatasetSplit> splitsOf(const DatasetView& dataset, const OptionValues& options, const std::string& usual)
 {
   const std::vector<DatasetShot>& shots = dataset.shots();
-  const bool alone = dataset.scene().name.empty(); // of many, others may be in it
+  const SceneOfMany& scene = dataset.scene();
   std::vector<DatasetSplit> splits;
   for (const std::string& part : exported::split().of(options))
   {
@@ -199,7 +199,12 @@ std::vector<DatasetSplit> splitsOf(const DatasetView& dataset, const OptionValue
         refuseSplit("parts that do not overlap", part);
       }
     }
-    if (alone && std::none_of(shots.begin(), shots.end(), [&](const auto& shot) { return split.holds(shot); }))
+    if (!scene.name.empty() && (split.last < 0 || split.first >= scene.count)) // others may be in it
+    {
+      refuseSplit("some of the scenes 0 to " + std::to_string(scene.count - 1), part);
+    }
+    if (scene.name.empty() &&
+        std::none_of(shots.begin(), shots.end(), [&](const auto& shot) { return split.holds(shot); }))
     {
       refuseSplit("frames of the dataset", part);
     }

@@ -2,6 +2,7 @@
 #include "dgtkExportRun.h"
 
 #include "dgtkError.h"
+#include "dgtkExportChecks.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkItemSink.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 
 namespace dgtk
@@ -48,18 +48,6 @@ DatasetSelection selectionOf(const ExportRequest& request)
   selection.metresPerUnit = metres.empty() ? 0 : metres[0];
   selection.pinholeTwins = exported::undistort().of(request.options);
   return selection;
-}
-
-void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const std::string& format)
-{
-  std::vector<std::string> missing;
-  std::copy_if(needs.layers.begin(), needs.layers.end(), std::back_inserter(missing),
-    [&](const std::string& layer) { return !dataset.has(layer); });
-  if (!missing.empty())
-  {
-    throw UsageError(format + ": the dataset lacks layers that the format needs: " + joined(missing) + " (it needs " +
-                     joined(needs.layers) + ")");
-  }
 }
 
 void noNames(const std::function<void(const std::string&)>&) {}
@@ -99,6 +87,7 @@ ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callba
   }
   this->Total = this->all();
   this->Hash = this->identity();
+  this->requireOneEach();
 }
 
 ExportItem ExportRun::item(std::size_t index) const
@@ -163,14 +152,9 @@ void ExportRun::forNames(const std::function<void(const std::string&)>& visit) c
   }
 }
 
-/// What may be in the way of files; nothing is in an empty folder, however many they are.
-ForNames ExportRun::announced() const
+/// No file is written over another one.
+void ExportRun::requireOneEach() const
 {
-  std::error_code code;
-  if (!std::filesystem::exists(this->Request.folder, code) || std::filesystem::is_empty(this->Request.folder, code))
-  {
-    return noNames;
-  }
   NameTable names;
   std::size_t count = 0;
   this->forNames(
@@ -180,9 +164,28 @@ ForNames ExportRun::announced() const
       ++count;
     });
   names.finish();
-  if (names.size() != count)
+  if (names.size() == count)
   {
-    throw std::logic_error("an exporter announces a file twice: " + this->Row.info.name);
+    return;
+  }
+  this->forNames(
+    [&](const std::string& name)
+    {
+      if (++*names.numberOf(name) > 1)
+      {
+        throw UsageError(this->Row.info.name + ": two files would be " + quoted(name) +
+                         " (expected names of cameras and parts that differ in the format, too)");
+      }
+    });
+}
+
+/// What may be in the way of files; nothing is in an empty folder, however many they are.
+ForNames ExportRun::announced() const
+{
+  std::error_code code;
+  if (!std::filesystem::exists(this->Request.folder, code) || std::filesystem::is_empty(this->Request.folder, code))
+  {
+    return noNames;
   }
   return [this](const auto& visit) { this->forNames(visit); };
 }

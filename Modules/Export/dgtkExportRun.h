@@ -46,6 +46,7 @@ private:
   TextPairs described() const;
   std::string identity() const;
   void forNames(const std::function<void(const std::string&)>& visit) const;
+  void requireOneEach() const;
   ForNames announced() const;
   bool isKept(std::size_t item) const;
   void writeItems(const ItemRange& range);

@@ -154,7 +154,8 @@ ExportResult shardOfScenes(const ExportRequest& request, const std::vector<std::
     return holdsExport(one.folder, ExportRun(one, {}).hash(), intact);
   };
   if (!hasParts(request.folder) &&
-      std::all_of(scenes.begin(), scenes.end(), [&](const std::string& name) { return isDone(name, false); }))
+      std::count_if(scenes.begin(), scenes.end(), [&](const std::string& name) { return isDone(name, false); }) ==
+        std::ptrdiff_t(scenes.size())) // looks at all
   {
     return {};
   }

@@ -327,6 +327,28 @@ def mirrored(data):
             return changed.read()
 
 
+def no_number(at):
+    """Of an array of a .npz file."""
+    def change(values):
+        values = values.copy()
+        values.flat[at] = np.nan
+        return values
+
+    return change
+
+
+def no_coordinate(axis):
+    """Of the last point of a cloud: three float32 and three bytes."""
+    at = 4 * axis - 15
+    return lambda data, _: data[:at] + struct.pack("<f", np.nan) + data[at + 4:]
+
+
+# What is no number, beside the numbers above that have a step: in each component, as a maximum may lose it.
+NO_NUMBERS = {
+    "tapvid": [Plant(row, "cam_L/tracks.npz", lambda data, _, array=array, at=at: archive(array, no_number(at))(data))
+               for row, array, width in (("points", "points", 2), ("queries", "query_points", 3)) for at in range(width)],
+    "transforms": [Plant("points", "points.ply", no_coordinate(axis)) for axis in range(3)]}
+
 # Rows that are planted one at a time.
 ALONE = {form: [Plant(*one) for one in rows] for form, rows in {
     "coco-panoptic": [("colors", PANOPTIC, same_colors)],

@@ -185,6 +185,8 @@ class Frame(datasets.ExportCase):
         folder, _ = self.export(dataset, "coco")
         before = digests(folder)
         self.refused("export", dataset, "--format", "coco", "-o", folder, "--masks", "polygon", status=2, says=("another request", "--replace"))
+        self.dgtk("export", dataset, "--format", "coco", "-o", self.path("steps"), "--quiet", "--frames", "0:2:2")
+        self.refused("export", dataset, "--format", "coco", "-o", self.path("steps"), "--frames", "0:2:1", "--resume", status=2, says="another request")
         self.refused("export", dataset, "--format", "coco", "-o", dataset, status=2, says="the dataset's own folder")
         self.refused("export", dataset, "--format", "coco", "-o", self.path("scene"), status=2, says="name a new or an empty folder")
         self.assertEqual(digests(folder), before)
@@ -305,7 +307,8 @@ class Frame(datasets.ExportCase):
         with open(picture, "r+b") as file:
             file.seek(200)
             file.write(b"\0\1\2")
-        self.refused("export", dataset, "--format", "coco", "-o", self.path("out"), "--quiet", status=3, says=("000001.png", "manifest"))
+        for link in ((), ("--link",)):
+            self.refused("export", dataset, "--format", "coco", "-o", self.path("out", *link), "--quiet", *link, status=3, says=("000001.png", "manifest"))
 
 
 if __name__ == "__main__":

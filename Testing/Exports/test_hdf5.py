@@ -105,6 +105,16 @@ class BlenderProc(datasets.ExportCase):
             self.assertTrue(np.array_equal(found, np.where(np.isfinite(values), values, 1e10).astype(np.float32)))
             self.assertTrue(np.array_equal(file["depth"][17:300:7, 5], found[17:300:7, 5]))
 
+    def test_a_tree_has_one_node_whatever_the_height(self):
+        """64 chunks are the most that it holds: 391 rows in sixes would be 66."""
+        path = datasets.walk(self.path("scene"), frames=2)
+        dataset = self.render(path, "color,depth,objects,classes", "--size", "3000x391", "--frames", "0")
+        folder, _ = self.export(dataset, "hdf5")
+        with h5py.File(os.path.join(folder, "0.hdf5"), "r") as file:
+            values = layer_of(dataset, "depth", "Kamera 1", 0)
+            self.assertEqual(file["depth"].chunks[0], 7)
+            self.assertTrue(np.array_equal(file["depth"][()], np.where(np.isfinite(values), values, 1e10).astype(np.float32)))
+
     def planted_value(self, dataset, folder, key, change):
         """Rewrites a member with h5py; the referee must name the layer."""
         def rewrite(data):

@@ -289,6 +289,27 @@ class ImageFolder(Hub):
                 dataset, folder, "train/metadata.jsonl",
                 lambda text, old=old, new=new: text[::-1].replace(old[::-1], new[::-1], 1)[::-1] if old == b'"wall"' else text.replace(old, new, 1)))
 
+    def test_the_size_is_that_of_all_scenes(self):
+        """1000 pictures are no longer fewer than 1K, whatever part of them a scene has."""
+        os.makedirs(self.path("scenes"))
+        self.write("scenes/quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        for number, last in enumerate((0, 499, 498)):
+            eye = {"keys": [[0, [0, 0, 5]], [last, [0, 0, 6]]]} if last else [0, 0, 5]
+            self.write(f"scenes/s{number}.json", json.dumps({
+                "units": "m", "fps": 10, "objects": [{"name": "quad", "model": "quad.obj"}],
+                "cameras": [{"name": "view", "width": 8, "height": 6, "eye": eye, "lookAt": [0, 0, 0]}]}))
+        self.dgtk("render", self.path("scenes"), "-o", self.path("all"), "--layers", "color", "--quiet")
+        folder, record = self.export(self.path("all"), "imagefolder")
+        self.assertEqual(len(record["names"]), 1000)
+        self.assertEqual(self.head(folder)[0]["size_categories"], ["1K<n<10K"])
+
+    def test_the_size_is_that_of_the_parts(self):
+        path = datasets.walk(self.path("scene"), frames=1000, empty=False)
+        dataset = self.render(path, "color", "--size", "8x6")
+        for part, size in (("0:998", "n<1K"), ("0:999", "1K<n<10K")):
+            folder, _ = self.export(dataset, "webdataset", "--split", "train=" + part)
+            self.assertEqual(self.head(folder)[0]["size_categories"], [size])
+
 
 if __name__ == "__main__":
     main()

@@ -6,6 +6,7 @@ One small dataset serves all formats. Errors of one format are planted together,
 import concurrent.futures
 import hashlib
 import json
+import math
 import os
 import shutil
 import struct
@@ -16,7 +17,7 @@ import numpy as np
 import datasets
 from datasets import load_json, main, sealed
 from harness import DGTK
-from planted_exports import COLMAP, PANOPTIC, PLANTS, packed, word
+from planted_exports import COLMAP, NO_NUMBERS, PANOPTIC, PLANTS, F, packed, word
 
 # What each format needs of every picture, in the order in which it is missed.
 NEEDS = {form: layers.split() for form, layers in {
@@ -27,6 +28,18 @@ NEEDS = {form: layers.split() for form, layers in {
     "mvsnet": "color depth objects tracks", "nerf-synthetic": "color_rgba", "sintel": "color",
     "spring": "color disparity disparity_backward flow_backward", "tapvid": "color tracks", "transforms": "color depth objects tracks",
     "tum": "color depth", "voc": "color objects boxes", "webdataset": "color", "yolo": "color objects boxes"}.items()}
+
+# What rows of documents leave to rounding, of all formats or of one; those of pixels are as wide as their codes.
+TOLERANCES = {
+    **dict.fromkeys(("baseline", "box 3d", "box 3d centre", "doffs", "front", "intrinsics", "length", "lights", "models_info", "places", "pose",
+                     "pose of objects", "vertices"), 1e-9),
+    **dict.fromkeys(("alpha", "angle", "points", "quaternion", "time", "truncated", "visib_fract"), 1e-12),
+    "reprojection": 1e-6, "nerf-synthetic intrinsics": 1e-6, "yolo box": 1e-6,
+    "kitti-odometry time": 1e-9 * 1.04, "mcap time": 1e-9, "rosbag time": 1e-9, "tum time": 5.01e-7,  # half a microsecond
+    "mvsnet range": 1e-9 * 7.4, "tapvid queries": 6e-8 * (48 + 36), "transforms points": 6e-8 * 2.9,  # of the wall's front
+    "gltf brightness": 1e-9 * 0.8 * np.pi, "gltf colors": 1e-3, "gltf field of view": 1e-9 * F, "gltf normals": 5e-7, "gltf pose": 2e-6,
+    "gltf pose of nodes": 5e-7, "gltf quaternion": 5e-7, "gltf range": 1e-9 * 100, "gltf time": 1e-7 * 1.04, "gltf vertices": 1e-6}
+OF_PIXELS = {"color", "depth", "disparity", "disparity_forward", "flow_forward"}
 
 
 class Referee(datasets.ExportCase):
@@ -76,6 +89,10 @@ class Referee(datasets.ExportCase):
             for rows, times in ((small, 0.1), (large, 10)):
                 judged = self.planted(copy, shares, times, shares) if shares else {}
                 rows.update((layer, row) for layer, row in judged.items() if alone or layer not in {plant.row for plant in PLANTS[form] if plant.alone})
+        scaled = [plant for plant in PLANTS[form] if getattr(plant.edit, "scales", False) and not plant.file.endswith(("json", "jsonl", "gltf"))]
+        for plant in [*scaled, *NO_NUMBERS.get(form, ())]:
+            rows = self.planted(copy, [plant], math.nan, {plant: 1})
+            self.assertTrue(rows[plant.row]["breach"], f"{plant.row} in {plant.file} is no number")
         return sound, planted, (one, small, large)
 
     def rows(self, folder):
@@ -123,6 +140,11 @@ class Referee(datasets.ExportCase):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             judged = dict(zip(PLANTS, pool.map(self.judge, PLANTS)))
         for form, (sound, rows, shared) in judged.items():
+            for layer in {layer for layer, row in sound.items() if row["tolerance"] > 0} - OF_PIXELS:
+                with self.subTest(form=form, tolerance=layer):
+                    if (form, layer) != ("mvsnet", "scores"):  # their sums decide
+                        expected = TOLERANCES.get(f"{form} {layer}", TOLERANCES.get(layer))
+                        self.assertAlmostEqual(sound[layer]["tolerance"] / expected, 1, places=6)
             with self.subTest(form=form):
                 breaches = [{layer for layer, row in each.items() if row["breach"]} for each in (sound, rows, shared[1])]
                 also = set().union(*(plant.also for plant in PLANTS[form]))

@@ -47,6 +47,34 @@ class Scenes(datasets.ExportCase):
         self.assertEqual(len(load_json(os.path.join(folder, "annotations", "instances_val.json"))["images"]), 1)
         self.assertEqual(len(load_json(os.path.join(folder, "annotations", "instances_train.json"))["images"]), 2)
 
+    def test_each_part_holds_scenes(self):
+        for form in ("imagefolder", "coco"):
+            for part in ("val=3:9", "val=-3:-1"):
+                self.refused("export", self.path("all"), "--format", form, "-o", self.path("no"), "--split", "train=0:1," + part, status=2,
+                             says=f"split: expected some of the scenes 0 to 2, found '{part}'")
+                self.assertFalse(os.path.exists(self.path("no")))
+        self.export("imagefolder", "--split", "train=0:1,val=2:9")
+
+    def changed(self, name, edit):
+        document = load_json(self.path("all", name))
+        edit(document)
+        with open(self.path("all", name), "w", encoding="utf-8") as file:
+            json.dump(document, file)
+
+    def test_units_that_differ_are_refused(self):
+        self.changed("s1/manifest.json", lambda manifest: manifest.update(metres_per_unit=2))
+        self.refused("export", self.path("all"), "--format", "coco", "-o", self.path("no"), status=2, says=("'s0' and 's1'", "units of other lengths"))
+        self.assertFalse(os.path.exists(self.path("no")))
+
+    def test_no_scene_is_begun_before_all_are_looked_at(self):
+        def skew(document):
+            document["cameras"][0]["K"][0][1] = 1e-3
+
+        self.changed("s1/cameras.json", skew)
+        for share in ((), ("--shard", "0/2")):
+            self.refused("export", self.path("all"), "--format", "tum", "-o", self.path("no"), *share, status=2, says="has a skew")
+            self.assertFalse(os.path.exists(self.path("no")))
+
     def test_bop_shares_models(self):
         folder = self.export("bop")
         self.assertEqual(list(load_json(os.path.join(folder, "models", "models_info.json"))), ["1"])

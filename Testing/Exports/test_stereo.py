@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 import datasets
-from datasets import layer_of, main, read_png
+from datasets import layer_of, load_json, main, read_png
 
 LEFT, RIGHT = "left eye", "right.eye"
 
@@ -174,6 +174,17 @@ class Sintel(datasets.ExportCase):
         lens = self.render(datasets.twins(self.path("twins")), "color,depth,flow_forward,objects")
         self.refused("export", lens, "--format", "sintel", "-o", self.path("no"), "--cameras", "fish.auge", status=2, says="not a plain pinhole")
 
+    def test_each_camera_has_a_scene(self):
+        """A right one alone is called after its left one, and not as another camera is."""
+        path = datasets.stereo(self.path("three"), 2)
+        scene = load_json(path)
+        eyes = {"cam": 0, "cam_mid": 0.06, "cam_right": 0.15}
+        scene["cameras"] = [{**scene["cameras"][0], "name": name, "eye": [x, 0.2, 4.5], "lookAt": [x, 0.2, 0], "width": 24, "height": 18} for name, x in eyes.items()]
+        dataset = self.render(datasets._write(os.path.dirname(path), "three", scene), "color,depth,flow_forward,objects")
+        _, record = self.export(dataset, "sintel")
+        self.assertEqual({one["camera"]: one["name"].split("/")[2] for one in record["names"]},
+                         {"cam": "cam", "cam_mid": "cam_right_2", "cam_right": "cam_right"})
+
 
 class FlyingThings(datasets.ExportCase):
     LAYERS = "color,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward,objects"
@@ -229,6 +240,8 @@ class FlyingThings(datasets.ExportCase):
         dataset = self.render(datasets.stereo(self.path("scene")), self.LAYERS)
         folder, _ = self.export(dataset, "flyingthings", "--split", "train=0:1,test=2:2")
         self.assertEqual(os.listdir(os.path.join(folder, "frames_finalpass", "TEST", "A", "0000", "left")), ["0006.png"])
+        self.refused("export", dataset, "--format", "flyingthings", "-o", self.path("twice"), "--split", "train=0:1,Train=2:2", status=2, says=("two files would be", "/TRAIN/"))
+        self.assertFalse(os.path.exists(self.path("twice")))
 
 
 if __name__ == "__main__":

@@ -30,6 +30,16 @@ def nerf_pixel(document, frame, points):
     return np.column_stack([value["fl_x"] * a + value["cx"], value["fl_y"] * b + value["cy"]]), -z
 
 
+def two_roundings_off(rows):
+    """The largest number of the points, moved by two of float32."""
+    points = np.frombuffer(rows, np.dtype([("x", "<f4", 3), ("c", "u1", 3)])).copy()
+    x = points["x"].reshape(-1)
+    at = np.abs(x).argmax()
+    x[at] = np.nextafter(np.nextafter(x[at], np.float32(np.inf)), np.float32(np.inf))
+    points["x"] = x.reshape(-1, 3)
+    return points.tobytes()
+
+
 class Transforms(datasets.ExportCase):
     LAYERS = "color,depth,objects,tracks"
 
@@ -66,18 +76,24 @@ class Transforms(datasets.ExportCase):
         self.assertNotIn("fl_x", document["frames"][0])
         self.assertNotIn("mask_path", document["frames"][0])
         self.assertAlmostEqual(document["camera_angle_y"], math.radians(45))
-        self.assertGreaterEqual(document["aabb_scale"], 4)
         with open(os.path.join(folder, "points.ply"), "rb") as file:
             head, rows = file.read().split(b"end_header\n", 1)
         found = np.frombuffer(rows, np.dtype([("x", "<f4", 3), ("c", "u1", 3)]))
         points = load_json(os.path.join(dataset, "tracks", "points.json"))["points"]
         self.assertEqual(found["x"].tolist(), np.array([p["x"] for p in points], np.float32).tolist())
         self.assertEqual(found["c"].tolist(), [p["color"] for p in points])
+        # instant-ngp's unit cube is 1 / 0.33 long; the scene's is the smallest power of two of it that holds all, both around the origin
+        centres = [frame["transform_matrix"][i][3] for frame in document["frames"] for i in range(3)]
+        reach = 0.33 * max(np.abs(centres).max(), np.abs([point["x"] for point in points]).max())
+        self.assertLessEqual(reach, document["aabb_scale"] / 2)
+        self.assertGreater(reach, document["aabb_scale"] / 4)
         said = self.planted(dataset, folder, "transforms.json", lambda text: text.replace(b'"cx": 48', b'"cx": 47', 1))
         self.assertIn("layer intrinsics", said)
         said = self.planted(dataset, folder, "transforms.json", lambda text: text.replace(b'0.0,0.0,0.0,1.0]]', b'0.0,0.0,0.0,2.0]]', 1))
         self.assertIn("layer pose", said)
         said = self.planted(dataset, folder, "points.ply", lambda data: data[:-13] + bytes([data[-13] ^ 64]) + data[-12:])
+        self.assertIn("layer points", said)
+        said = self.planted(dataset, folder, "points.ply", lambda data: head + b"end_header\n" + two_roundings_off(data[-len(rows):]))
         self.assertIn("layer points", said)
 
     def test_what_moves_is_masked(self):

@@ -54,7 +54,10 @@ class Voc(datasets.ExportCase):
             root = ElementTree.parse(os.path.join(folder, "Annotations", stem + ".xml")).getroot()
             self.assertEqual(root.findtext("filename"), stem + ".jpg")
             with open(os.path.join(folder, "JPEGImages", stem + ".jpg"), "rb") as file:
-                self.assertEqual(file.read(2), b"\xff\xd8")
+                data = file.read()
+            self.assertEqual(data[:2], b"\xff\xd8")
+            frame = data[data.index(b"\xff\xc0") + 4:]  # bits, height, width, components: of each a number, its sampling and its table
+            self.assertEqual((frame[5], frame[7:15:3]), (3, b"\x11" * 3))
             kinds, palette = read_palette(os.path.join(folder, "SegmentationClass", stem + ".png"))
             instances, _ = read_palette(os.path.join(folder, "SegmentationObject", stem + ".png"))
             self.assertEqual(palette[[0, 1, 2, 15, 255]].tolist(), [[0, 0, 0], [128, 0, 0], [0, 128, 0], [192, 128, 128], [224, 224, 192]])

@@ -58,7 +58,8 @@ class Yolo(datasets.ExportCase):
         self.assertEqual(list(read["names"].values()), [one["name"] for one in load_json(os.path.join(dataset, "objects.json"))["classes"]])
         self.assertIn("größe\u2028XL\u0085", read["names"].values())
 
-        self.refused("export", dataset, "--format", "yolo", "-o", self.path("no"), "--split", "names=7:7", status=2, says=("split", "'names'"))
+        for key in ("names", "path"):
+            self.refused("export", dataset, "--format", "yolo", "-o", self.path("no"), "--split", key + "=7:7", status=2, says=("split", f"'{key}'"))
         with open(os.path.join(self.export(dataset, "yolo", "--split", "no=7:7")[0], "data.yaml"), encoding="utf-8") as file:
             self.assertEqual(yaml.safe_load(file)["no"], "images/no")
         nothing = self.render(hard_scenes.nothing(self.path("nothing")), LAYERS)

@@ -34,6 +34,18 @@ void requireWhole(const OptionValues& options, const std::string& format)
   }
 }
 
+void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const std::string& format)
+{
+  std::vector<std::string> missing;
+  std::copy_if(needs.layers.begin(), needs.layers.end(), std::back_inserter(missing),
+    [&](const std::string& layer) { return !dataset.has(layer); });
+  if (!missing.empty())
+  {
+    throw UsageError(format + ": the dataset lacks layers that the format needs: " + joined(missing) + " (it needs " +
+                     joined(needs.layers) + ")");
+  }
+}
+
 void requireFile(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
   const std::string& format, const std::vector<std::string>& extensions)
 {

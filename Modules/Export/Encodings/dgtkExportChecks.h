@@ -17,6 +17,8 @@ namespace dgtk
 void requirePng(const OptionValues& options, const std::string& format);
 /// The format has no parts.
 void requireWhole(const OptionValues& options, const std::string& format);
+/// The dataset has a file at least of every layer.
+void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const std::string& format);
 /// A picture has a file of the layer with one of the extensions; every picture has.
 void requireFile(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
   const std::string& format, const std::vector<std::string>& extensions = {});

@@ -316,7 +316,7 @@ void ExportJudge::intrinsics(
     return;
   }
   this->meter("intrinsics", "px", tolerance, file)
-    .add((K - record->K).cwiseAbs().maxCoeff(),
+    .add(apart(K, record->K),
       [&] {
         return Offender{ file, -1, -1, matrixText(K) + " (" + placeText(camera, frame) + ")", matrixText(record->K) };
       });
@@ -332,7 +332,7 @@ void ExportJudge::pose(const std::string& file, const std::string& camera, int f
     return;
   }
   const double size = std::max(1.0, record->t.norm());
-  const double error = std::max((R - record->R).cwiseAbs().maxCoeff(), (t - record->t).cwiseAbs().maxCoeff() / size);
+  const double error = larger(apart(R, record->R), apart(t, record->t) / size);
   this->meter("pose", "1", tolerance, file)
     .add(error,
       [&]
@@ -353,7 +353,7 @@ void ExportJudge::box(const std::string& file, const std::string& camera, int fr
     return;
   }
   this->meter("box", "px", tolerance, file)
-    .add((box - *found->visible).cwiseAbs().maxCoeff(),
+    .add(apart(box, *found->visible),
       [&]
       {
         return Offender{ file, -1, -1, matrixText(box) + " (" + objectText(camera, frame, object) + ")",

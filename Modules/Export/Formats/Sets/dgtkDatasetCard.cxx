@@ -56,7 +56,11 @@ std::string licenseLines(const DatasetView& dataset)
 
 std::string sizeOf(std::size_t pictures)
 {
-  return pictures < 1000 ? "n<1K" : pictures < 10000 ? "1K<n<10K" : pictures < 100000 ? "10K<n<100K" : "100K<n<1M";
+  return pictures < 1000      ? "n<1K"
+         : pictures < 10000   ? "1K<n<10K"
+         : pictures < 100000  ? "10K<n<100K"
+         : pictures < 1000000 ? "100K<n<1M"
+                              : "1M<n<10M";
 }
 
 /// The JSON-LD context that Croissant 1.0 prescribes.
@@ -97,10 +101,11 @@ void checkParts(const std::vector<std::string>& names, const std::string& format
   }
 }
 
-std::string readmeText(const DatasetView& dataset, const std::vector<Part>& parts, const std::string& layout)
+std::string readmeText(
+  const DatasetView& dataset, std::size_t pictures, const std::vector<Part>& parts, const std::string& layout)
 {
   std::string text = "---\n" + licenseLines(dataset) + line("pretty_name", nameOf(dataset));
-  text += "tags:\n- synthetic\nsize_categories:\n- " + quotedText(sizeOf(dataset.shots().size())) + "\n";
+  text += "tags:\n- synthetic\nsize_categories:\n- " + quotedText(sizeOf(pictures)) + "\n";
   text += "configs:\n- config_name: default\n  data_files:\n";
   for (const Part& part : parts)
   {

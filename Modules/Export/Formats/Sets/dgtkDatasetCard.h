@@ -28,7 +28,9 @@ struct Part
 void checkParts(const std::vector<std::string>& names, const std::string& format);
 
 /// README.md with a YAML head as Hugging Face's hub reads it: license, name, files of each part. `layout`: Markdown.
-std::string readmeText(const DatasetView& dataset, const std::vector<Part>& parts, const std::string& layout);
+/// `pictures`: of all parts and scenes.
+std::string readmeText(
+  const DatasetView& dataset, std::size_t pictures, const std::vector<Part>& parts, const std::string& layout);
 
 /// croissant.json, Croissant 1.0.
 std::string croissantText(const DatasetView& dataset, const Json& distribution, const Json& recordSets);

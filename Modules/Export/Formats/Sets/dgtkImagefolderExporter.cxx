@@ -78,8 +78,13 @@ public:
     }
     plan.documents.push_back({ { "README.md" }, [&dataset, parts](ExportSink& sink)
       {
+        std::size_t pictures = 0;
+        for (const card::Part& part : parts)
+        {
+          sink.notes("lines:" + part.name, [&](const std::string&) { ++pictures; });
+        }
         sink.write(
-          "README.md", card::readmeText(dataset, parts,
+          "README.md", card::readmeText(dataset, pictures, parts,
                          "Pictures, and a `metadata.jsonl` in each folder: a line a picture with its camera, poses and "
                          "boxes.\n\nMade by DGTk.\n"));
       } });

@@ -122,12 +122,14 @@ public:
       { "members", uniform().of(options) ? "those that every picture has" : "all" },
       { "values", "the dataset's; .npy in place of .pfm, .flo, .dgd" } };
     const auto all = std::make_shared<const Samples>(dataset, options);
+    std::size_t pictures = 0;
     std::vector<card::Part> parts;
     std::vector<std::string> kinds{ "json" };
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
       const std::vector<std::uint32_t> own = shotsIn(dataset, split);
       addShards(plan, all, split.name, own);
+      pictures += own.size();
       parts.push_back({ split.name, split.name + "-*.tar" });
       for (const std::uint32_t shot : own)
       {
@@ -135,7 +137,7 @@ public:
       }
     }
     std::sort(kinds.begin(), kinds.end());
-    addDocuments(plan, dataset, parts, kinds);
+    addDocuments(plan, dataset, pictures, parts, kinds);
     return plan;
   }
 
@@ -184,13 +186,13 @@ private:
     sink.note("shards", card::fileObject(tar.finish(), card::mimeOf("tar")).dump());
   }
 
-  static void addDocuments(ExportPlan& plan, const DatasetView& dataset, const std::vector<card::Part>& parts,
-    const std::vector<std::string>& kinds)
+  static void addDocuments(ExportPlan& plan, const DatasetView& dataset, std::size_t pictures,
+    const std::vector<card::Part>& parts, const std::vector<std::string>& kinds)
   {
     plan.documents.push_back(
       { { "objects.json" }, [](ExportSink& sink) { sink.copy("objects.json", "objects.json"); } });
-    plan.documents.push_back({ { "README.md" }, [&dataset, parts](ExportSink& sink)
-      { sink.write("README.md", card::readmeText(dataset, parts, layoutText())); } });
+    plan.documents.push_back({ { "README.md" }, [&dataset, pictures, parts](ExportSink& sink)
+      { sink.write("README.md", card::readmeText(dataset, pictures, parts, layoutText())); } });
     plan.documents.push_back({ { "croissant.json" }, [&dataset, kinds](ExportSink& sink)
       {
         Json distribution = Json::array();

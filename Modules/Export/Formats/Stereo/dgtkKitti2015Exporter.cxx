@@ -73,6 +73,18 @@ std::vector<Sample> samplesOf(const DatasetView& dataset)
 std::map<std::uint32_t, std::uint32_t> objectCodes(const DatasetView& dataset, const OptionValues& options)
 {
   const std::vector<std::string> classes = foreground().of(options);
+  std::vector<std::string> known;
+  for (const ClassRecord& one : dataset.classes())
+  {
+    known.push_back(one.name);
+  }
+  for (const std::string& name : classes)
+  {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+    {
+      throw UsageError("foreground: no class " + quoted(name) + " (expected one of " + joined(known, ", ") + ')');
+    }
+  }
   std::map<std::uint32_t, std::uint32_t> codes;
   for (const ObjectRecord& object : dataset.objects())
   {

@@ -95,10 +95,16 @@ private:
   static std::vector<Scene> scenesOf(const DatasetView& dataset)
   {
     std::vector<Scene> scenes;
-    for (const CameraEyes& eyes : eyesOf(dataset))
+    SafeNames names;
+    const std::vector<CameraEyes> all = eyesOf(dataset);
+    for (const CameraEyes& eyes : all)
+    {
+      names.of(eyes.left);
+    }
+    for (const CameraEyes& eyes : all)
     {
       scenes.push_back({ eyes.name, eyes.right, shotNumbers(dataset, eyes.left) });
-      Scene lonely{ eyes.name + "_right", "", {} };
+      Scene lonely;
       for (const std::uint32_t number : shotNumbers(dataset, eyes.right))
       {
         const DatasetShot* left = dataset.shot(eyes.left, dataset.shots()[number].frame());
@@ -107,7 +113,11 @@ private:
           lonely.shots.push_back(number);
         }
       }
-      scenes.push_back(lonely);
+      if (!lonely.shots.empty())
+      {
+        lonely.name = names.of(eyes.name + "/right"); // no camera is called so
+        scenes.push_back(lonely);
+      }
     }
     return scenes;
   }

@@ -141,7 +141,7 @@ void judgePicture(const Comparison& one, Meter& meter)
       for (int c = 0; c < std::min(found.channels, expected->channels()); ++c)
       {
         const double want = expected->at(x, y, c) / level;
-        const double apart = std::max(0.0, std::abs(found.at(x, y, c) - want) - (level > 1 ? 0.5 : 0));
+        const double apart = beyond(std::abs(found.at(x, y, c) - want), level > 1 ? 0.5 : 0);
         meter.add(apart, [&] { return offenderAt(one, x, y, found.at(x, y, c), want); });
       }
     });
@@ -313,7 +313,7 @@ void judgeValues(const Comparison& one, const Decoder& decoder, Meter& meter)
         const double value = found.at(x, y, c);
         const double want = expected.at(x, y, c);
         const double slack = codes ? 1e-12 * std::abs(want) : half * std::abs(want);
-        const double apart = there ? std::max(0.0, std::abs(value - want) - slack) : 0;
+        const double apart = there ? beyond(std::abs(value - want), slack) : 0;
         meter.add(std::isfinite(value) == there ? apart : infinite, [&] { return offenderAt(one, x, y, value, want); });
       }
     });
@@ -333,7 +333,7 @@ void judgeChange(const Comparison& one, Meter& meter)
       const double want = there->at(x, y) - here->at(x, y);
       const double value = found.at(x, y);
       const bool same = std::isfinite(value) == std::isfinite(want);
-      const double apart = std::isfinite(want) ? std::max(0.0, std::abs(value - want) - half * std::abs(want)) : 0;
+      const double apart = std::isfinite(want) ? beyond(std::abs(value - want), half * std::abs(want)) : 0;
       meter.add(same ? apart : infinite, [&] { return offenderAt(one, x, y, value, want); });
     });
 }

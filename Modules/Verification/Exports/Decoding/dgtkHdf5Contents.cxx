@@ -127,15 +127,23 @@ public:
   }
 
 private:
-  void group(std::uint64_t tree)
+  /// How many entries the one node of a tree has.
+  std::uint64_t entriesOf(std::uint64_t tree) const
   {
     this->File.expect(tree, "TREE");
-    const std::uint64_t level = this->File.number(tree + 5, 1);
-    const std::uint64_t entries = this->File.number(tree + 6, 2);
+    if (this->File.number(tree + 5, 1) != 0)
+    {
+      this->File.fail(tree, "is a tree of several nodes");
+    }
+    return this->File.number(tree + 6, 2);
+  }
+
+  void group(std::uint64_t tree)
+  {
+    const std::uint64_t entries = this->entriesOf(tree);
     for (std::uint64_t i = 0; i < entries; ++i)
     {
-      const std::uint64_t child = this->File.number(tree + 32 + 16 * i, 8);
-      level > 0 ? this->group(child) : this->symbols(child);
+      this->symbols(this->File.number(tree + 32 + 16 * i, 8));
     }
   }
 
@@ -188,9 +196,14 @@ private:
             break;
         }
       });
+    const std::uint64_t most = 1032 * this->File.size(); // deflate packs no tighter
     std::uint64_t count = 1;
     for (const std::uint64_t one : found.dimensions)
     {
+      if (one == 0 || count > most / one)
+      {
+        this->File.fail(header, "has no numbers, or more than the file holds");
+      }
       count *= one;
     }
     if (found.kind == Hdf5Dataset::Kind::Text)
@@ -206,7 +219,7 @@ private:
     }
     else
     {
-      this->chunks(layout.address, layout, found);
+      this->chunks(header, layout, found);
     }
     return found;
   }
@@ -255,22 +268,25 @@ private:
     found.deflate = static_cast<int>(this->File.number(at + 16 + this->File.number(at + 10, 2), 4));
   }
 
-  void chunks(std::uint64_t tree, const Layout& layout, Hdf5Dataset& found)
+  void chunks(std::uint64_t header, const Layout& layout, Hdf5Dataset& found)
   {
-    this->File.expect(tree, "TREE");
-    const std::uint64_t level = this->File.number(tree + 5, 1);
-    const std::uint64_t entries = this->File.number(tree + 6, 2);
+    if (found.dimensions.empty() || layout.chunk.size() != found.dimensions.size() + 1 ||
+        layout.chunk[0] > found.dimensions[0])
+    {
+      this->File.fail(header, "has chunks that are none of its array");
+    }
+    const std::uint64_t entries = this->entriesOf(layout.address);
     const std::uint64_t keyBytes = 8 + 8 * layout.chunk.size();
     for (std::uint64_t i = 0; i < entries; ++i)
     {
-      const std::uint64_t key = tree + 24 + (keyBytes + 8) * i;
-      const std::uint64_t child = this->File.number(key + keyBytes, 8);
-      level > 0 ? this->chunks(child, layout, found) : this->chunk(key, child, layout, found);
+      const std::uint64_t key = layout.address + 24 + (keyBytes + 8) * i;
+      this->chunk(i, key, this->File.number(key + keyBytes, 8), layout, found);
     }
   }
 
-  /// Chunks that hold whole rows, which all of these files have.
-  void chunk(std::uint64_t key, std::uint64_t address, const Layout& layout, Hdf5Dataset& found)
+  /// Chunks that hold whole rows, one behind the other, which all of these files have.
+  void chunk(
+    std::uint64_t place, std::uint64_t key, std::uint64_t address, const Layout& layout, Hdf5Dataset& found) const
   {
     std::uint64_t row = 1;
     for (std::size_t i = 1; i < found.dimensions.size(); ++i)
@@ -297,7 +313,8 @@ private:
     {
       this->File.fail(address, "cannot be inflated");
     }
-    if ((plain ? stored : std::uint64_t(size)) != most * found.bytes || first >= found.values.size())
+    if ((plain ? stored : std::uint64_t(size)) != most * found.bytes || first != place * most ||
+        first >= found.values.size())
     {
       this->File.fail(address, "is a chunk of another size, or elsewhere");
     }

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace dgtk
@@ -31,6 +32,7 @@ struct Value
   std::size_t begin = 0;
   std::size_t size = 0;
   std::vector<Value> items = {};
+  int depth = 0; ///< of what is in it
 };
 using Kind = Value::Kind;
 
@@ -140,10 +142,28 @@ private:
     value.number = number;
     this->push(value);
   }
+  /// Of these files nothing is nested as deep, and what is destroys itself recursively.
+  void put(Value item, Value& into) const
+  {
+    constexpr int deepest = 16;
+    into.depth = std::max(into.depth, item.depth + 1);
+    into.items.push_back(std::move(item));
+    if (into.depth > deepest)
+    {
+      this->fail();
+    }
+  }
+  void put(std::vector<Value> items, Value& into) const
+  {
+    for (Value& item : items)
+    {
+      this->put(std::move(item), into);
+    }
+  }
   void pushTuple(std::vector<Value> items)
   {
     Value value{ Kind::Tuple };
-    value.items = std::move(items);
+    this->put(std::move(items), value);
     this->push(std::move(value));
   }
 
@@ -190,25 +210,19 @@ private:
       case 'R':
       {
         Value made{ Kind::Made };
-        made.items.push_back(this->pop());
+        this->put(this->pop(), made);
         made.text = this->pop().text;
         return this->push(std::move(made));
       }
       case 'b':
       {
         Value state = this->pop();
-        this->top().items.push_back(std::move(state));
-        return;
+        return this->put(std::move(state), this->top());
       }
       case 'u':
       {
         std::vector<Value> entries = this->popToMark();
-        Value& dictionary = this->top();
-        for (Value& entry : entries)
-        {
-          dictionary.items.push_back(std::move(entry));
-        }
-        return;
+        return this->put(std::move(entries), this->top());
       }
       default:
         this->fail();

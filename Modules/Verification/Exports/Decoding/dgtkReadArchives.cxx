@@ -196,7 +196,7 @@ DecodedPixels decodeGrayPngBytes(const std::string& path, const std::string& byt
     DecodedPixels pixels;
     std::string packed;
     std::size_t depth = 0;
-    for (std::size_t at = 8; at < bytes.size(); at += 12 + big32(bytes, at))
+    for (std::size_t at = 8; at < bytes.size(); at += 12 + std::size_t(big32(bytes, at)))
     {
       const std::string type = bytes.substr(at + 4, 4);
       if (type == "IHDR")
@@ -210,7 +210,9 @@ DecodedPixels decodeGrayPngBytes(const std::string& path, const std::string& byt
       packed += type == "IDAT" ? bytes.substr(at + 8, big32(bytes, at)) : "";
     }
     const std::size_t rowBytes = std::size_t(pixels.width) * depth;
-    std::vector<unsigned char> data((rowBytes + 1) * std::size_t(pixels.height));
+    const std::size_t most = 1032 * packed.size(); // deflate packs no tighter
+    const bool fits = pixels.width > 0 && pixels.height > 0 && rowBytes < most / std::size_t(pixels.height);
+    std::vector<unsigned char> data(fits ? (rowBytes + 1) * std::size_t(pixels.height) : 0);
     uLongf size = data.size();
     if (depth == 0 || size == 0 ||
         uncompress(data.data(), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) != Z_OK ||

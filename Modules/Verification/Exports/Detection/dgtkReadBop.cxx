@@ -38,6 +38,7 @@ BopPoints verticesOf(const std::string& path)
   std::istringstream stream(bytes);
   std::size_t count = 0;
   std::size_t rowBytes = 0;
+  std::size_t doubles = 0; ///< that begin a row
   bool ascii = false;
   bool vertices = false;
   for (std::string line; std::getline(stream, line) && line != "end_header";)
@@ -52,7 +53,12 @@ BopPoints verticesOf(const std::string& path)
     {
       words >> count;
     }
+    doubles += first == "property" && vertices && second == "double" && rowBytes == 8 * doubles ? 1 : 0;
     rowBytes += first == "property" && vertices ? (second == "double" ? 8 : second == "float" ? 4 : 1) : 0;
+  }
+  if (!ascii && doubles < 3)
+  {
+    throw InputError(path, "has vertices that do not begin with three doubles");
   }
   BopPoints points;
   const auto start = std::size_t(std::max<std::streamoff>(0, stream.tellg()));
@@ -203,7 +209,7 @@ private:
       most = most.cwiseMax(x);
       for (std::size_t k = 0; k < points.size() && points.size() <= few; ++k)
       {
-        widest = std::max(widest, (x - points[k]).norm());
+        widest = larger(widest, (x - points[k]).norm());
       }
     }
     const char* axes = "xyz";
@@ -318,7 +324,7 @@ private:
       {
         const Eigen::Vector3d world = known->matrix * own[k].homogeneous();
         const Eigen::Vector3d there = (camera->R * world + camera->t) * this->Unit;
-        apart = std::max(apart, (R * model[k] + t - there).norm() / std::max(1.0, there.norm()));
+        apart = larger(apart, (R * model[k] + t - there).norm() / std::max(1.0, there.norm()));
       }
       if (apart < 1e-6)
       {

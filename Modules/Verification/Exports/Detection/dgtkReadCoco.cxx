@@ -21,21 +21,21 @@ std::vector<std::uint64_t> countsOf(const std::string& text)
   std::vector<std::uint64_t> counts;
   for (std::size_t at = 0; at < text.size();)
   {
-    std::int64_t value = 0;
-    int shift = 0;
+    std::uint64_t value = 0;
+    int shift = 0; // of more bits than there are, the first ones count
     int code = 0;
     do
     {
       code = text[at++] - 48;
-      value |= std::int64_t(code & 0x1f) << shift;
-      shift += 5;
+      value |= shift < 64 ? std::uint64_t(code & 0x1f) << shift : 0;
+      shift = std::min(shift + 5, 64);
     } while ((code & 0x20) != 0 && at < text.size());
-    if ((code & 0x10) != 0)
+    if ((code & 0x10) != 0 && shift < 64)
     {
-      value |= -1 * (std::int64_t(1) << shift);
+      value |= ~std::uint64_t(0) << shift;
     }
     const std::size_t n = counts.size();
-    counts.push_back(static_cast<std::uint64_t>(n > 2 ? value + std::int64_t(counts[n - 2]) : value));
+    counts.push_back(n > 2 ? value + counts[n - 2] : value);
   }
   return counts;
 }

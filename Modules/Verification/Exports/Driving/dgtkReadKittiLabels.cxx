@@ -67,7 +67,7 @@ double apart(const Corners& a, const Corners& b)
   double largest = 0;
   for (int i = 0; i < 8; ++i)
   {
-    largest = std::max(largest, (b.rowwise() - a.row(i)).rowwise().norm().minCoeff());
+    largest = larger(largest, (b.rowwise() - a.row(i)).rowwise().norm().minCoeff());
   }
   return largest;
 }
@@ -118,7 +118,7 @@ bool isTypeOf(const std::string& type, const std::string& objectClass)
   { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-'; };
   std::replace_if(expected.begin(), expected.end(), std::not_fn(isPlain), '_');
   const std::string more = type.rfind(expected, 0) == 0 ? type.substr(expected.size()) : "another";
-  return more.empty() ||
+  return (more.empty() && expected != "DontCare") ||
          (more[0] == '_' && more.size() > 1 && more.find_first_not_of("0123456789", 1) == std::string::npos);
 }
 
@@ -139,9 +139,9 @@ void judgeLabel(ExportJudge& judge, const LabelPlace& place, const KittiLabel& l
   number("alpha", "rad", std::remainder(n[2] - (n[13] - std::atan2(n[10], n[12])), 2 * pi), 0, 1e-12);
   const Corners expected = box.corners * metresOf(judge.source());
   const Corners found = cornersOf(label);
-  const double off = std::max(apart(found, expected), apart(expected, found));
+  const double off = larger(apart(found, expected), apart(expected, found));
   const double slack = slackOf(expected, statedTilt(judge.source()) + 1e-4);
-  number("box 3d", "m", std::max(0.0, off - slack), 0, 1e-9);
+  number("box 3d", "m", beyond(off, slack), 0, 1e-9);
   number("box 3d centre", "m", (found.colwise().mean() - expected.colwise().mean()).norm(), 0, 1e-9);
   judge.holds("type", place.file, place.words, isTypeOf(label.type, box.objectClass), label.type, box.objectClass);
 }

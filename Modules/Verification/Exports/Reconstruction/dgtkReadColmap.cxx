@@ -365,7 +365,7 @@ private:
         continue;
       }
       const TrackPlace& own = places[std::size_t(place.point) - 1];
-      const double apart = std::max(std::abs(place.u + this->Half - own.u), std::abs(place.v + this->Half - own.v));
+      const double apart = larger(std::abs(place.u + this->Half - own.u), std::abs(place.v + this->Half - own.v));
       this->Judge.number("places", "px", this->file("images"), where, own.visibility == 1 ? apart : infinite, 0, 1e-9);
       const Eigen::Vector2d pixel = project(camera, R * point->second.x + image.t);
       this->Judge.number("reprojection", "px", this->file("points3D"), where,

@@ -140,9 +140,10 @@ void judgePairs(ExportJudge& judge, const std::string& file)
     judge.exact("pairs", "", file, where, double(row.size()), row.empty() ? 1 : 2 * row[0] + 1);
     for (std::size_t k = 1; k + 1 < row.size(); k += 2)
     {
-      const auto other = std::size_t(row[k]);
-      const bool known = other < names.size() && other != i && (k < 3 || row[k - 1] >= row[k + 1]);
-      judge.holds("pairs", file, where, known, std::to_string(other), "another view, the best first");
+      const bool listed = row[k] >= 0 && row[k] < double(names.size());
+      const std::size_t other = listed ? std::size_t(row[k]) : names.size();
+      const bool known = listed && other != i && (k < 3 || row[k - 1] >= row[k + 1]);
+      judge.holds("pairs", file, where, known, numberText(row[k]), "another view, the best first");
       if (known && (i % 16 == 0 || names.size() < 64)) // of many views some are looked at
       {
         const double expected = scoreOf(judge.source(), points, names[i], names[other]);

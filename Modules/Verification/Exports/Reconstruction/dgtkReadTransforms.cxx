@@ -117,8 +117,7 @@ void judgePoints(ExportJudge& judge, const std::string& name)
     float x[3];
     std::memcpy(x, bytes.data() + head + row * i, sizeof x);
     const Eigen::Vector3d found = Eigen::Map<const Eigen::Vector3f>(x).cast<double>();
-    const double apart = (found - points[i].x).cwiseAbs().maxCoeff();
-    judge.number("points", "scene units", name, "point " + std::to_string(i + 1), apart, 0,
+    judge.number("points", "scene units", name, "point " + std::to_string(i + 1), apart(found, points[i].x), 0,
       6e-8 * std::max(1.0, points[i].x.cwiseAbs().maxCoeff()));
     const bool same = std::memcmp(bytes.data() + head + row * i + 12, points[i].color, 3) == 0;
     judge.holds("colors", name, "point " + std::to_string(i + 1), same, "another", "that of tracks/points.json");

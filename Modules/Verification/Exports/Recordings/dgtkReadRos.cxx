@@ -75,20 +75,22 @@ std::map<std::string, std::string> partsOf(const std::string& definition)
   return parts;
 }
 
-std::string flattened(
-  const std::map<std::string, std::string>& parts, const std::string& part, const std::string& prefix, int depth)
+/// `left`: letters, far more than any known type has, so that types that name each other come to an end.
+std::string flattened(const std::map<std::string, std::string>& parts, const std::string& part,
+  const std::string& prefix, int depth, std::size_t& left)
 {
   std::string all;
   std::istringstream words(parts.at(part));
   std::string type;
   std::string name;
-  while (words >> type >> name)
+  while (left > 0 && words >> type >> name)
   {
+    left -= std::min(left, prefix.size() + type.size() + name.size());
     const std::size_t bracket = type.find('[');
     const std::string base = type.substr(0, bracket);
     const std::string key = base.substr(base.rfind('/') + 1);
     const std::string array = bracket == std::string::npos ? "" : "[]";
-    all += parts.count(key) > 0 && depth < 8 ? flattened(parts, key, prefix + name + array + '.', depth + 1)
+    all += parts.count(key) > 0 && depth < 8 ? flattened(parts, key, prefix + name + array + '.', depth + 1, left)
                                              : type + ' ' + prefix + name + ';';
   }
   return all;
@@ -96,8 +98,8 @@ std::string flattened(
 
 std::vector<double> takeNumbers(RosBytes& bytes, std::size_t count)
 {
-  std::vector<double> numbers(count);
-  std::generate(numbers.begin(), numbers.end(), [&] { return bytes.take<double>(); });
+  std::vector<double> numbers;
+  std::generate_n(std::back_inserter(numbers), count, [&] { return bytes.take<double>(); });
   return numbers;
 }
 
@@ -205,7 +207,8 @@ void RosReferee::topic(
   const std::string fields = known->fields;
   const std::string expected = fields[0] == '%' ? headerFields + fields.substr(1) : fields;
   const auto parts = partsOf(definition);
-  const std::string found = parts.count("") > 0 ? flattened(parts, "", "", 0) : "nothing";
+  std::size_t left = 4096;
+  const std::string found = parts.count("") > 0 ? flattened(parts, "", "", 0, left) : "nothing";
   this->holds(topic, md5 == known->md5, md5, known->md5);
   this->holds(topic, found == expected, found, expected);
 }
@@ -298,7 +301,7 @@ void RosReferee::picture(RosBytes& bytes, const ExportedName& name)
       {
         const double level = expected->type() == PixelType::UInt16 ? 257 : 1;
         const double slack = level > 1 ? 0.5 : 0;
-        largest = std::max(largest, std::abs(found.at(x, y, c) - expected->at(x, y, c) / level) - slack);
+        largest = larger(largest, std::abs(found.at(x, y, c) - expected->at(x, y, c) / level) - slack);
       }
     }
   }
@@ -388,11 +391,7 @@ void RosReferee::baseline(const ExportedName& name, double metres)
   {
     const CameraRecord* other =
       entry.second->frame == name.frame ? source.camera(entry.second->camera, name.frame) : nullptr;
-    if (!other || other->name == name.camera)
-    {
-      continue;
-    }
-    const double apart = rightwards(*other, *own, this->Metres);
+    const double apart = other && other->name != name.camera ? rightwards(*other, *own, this->Metres) : 0;
     if (apart > 0 && std::abs(apart - metres) < std::abs(nearest - metres))
     {
       nearest = apart;
@@ -408,9 +407,12 @@ void RosReferee::judgePartners()
 {
   const ExportedFrom& source = this->Judge.source();
   std::map<std::string, std::set<int>> frames;
-  for (const auto& entry : this->Names)
+  for (const auto& [name, picture] : this->Names)
   {
-    frames[entry.second->camera].insert(entry.second->frame);
+    if (source.camera(picture->camera, picture->frame))
+    {
+      frames[picture->camera].insert(picture->frame);
+    }
   }
   std::set<std::string> paired;
   for (const auto& [right, left] : this->Partners)
@@ -434,8 +436,7 @@ void RosReferee::transforms(RosBytes& bytes, std::uint64_t time)
 {
   const ExportedFrom& source = this->Judge.source();
   constexpr const char* ending = "_optical_frame";
-  const auto count = bytes.take<std::uint32_t>();
-  for (std::uint32_t i = 0; i < count; ++i)
+  for (auto left = bytes.take<std::uint32_t>(); left > 0; --left)
   {
     this->header(bytes, "/tf", time, "world");
     const std::string child = bytes.text();
@@ -470,8 +471,7 @@ void RosReferee::object(const std::string& child, int frame, const Eigen::Matrix
   {
     this->Objects[frame].insert(pose->first.second);
     const double size = std::max(1.0, pose->second.t.norm());
-    const double error = std::max(
-      (R - pose->second.R).cwiseAbs().maxCoeff(), (t / this->Metres - pose->second.t).cwiseAbs().maxCoeff() / size);
+    const double error = larger(apart(R, pose->second.R), apart(t / this->Metres, pose->second.t) / size);
     this->Judge.number("pose of objects", "1", this->File, where, error, 0, 1e-9);
   }
 }
@@ -479,13 +479,12 @@ void RosReferee::object(const std::string& child, int frame, const Eigen::Matrix
 void RosReferee::finish()
 {
   std::set<int> frames;
-  std::size_t messages = 0;
   for (const auto& entry : this->Names)
   {
     frames.insert(entry.second->frame);
-    messages += 5;
   }
-  this->Judge.exact("messages", "messages", this->File, "of pictures", double(this->Seen.size()), double(messages));
+  this->Judge.exact(
+    "messages", "messages", this->File, "of pictures", double(this->Seen.size()), 5.0 * double(this->Names.size()));
   for (const int frame : frames)
   {
     const auto there = std::count_if(this->Poses.begin(), this->Poses.end(),

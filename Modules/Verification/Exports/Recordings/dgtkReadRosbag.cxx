@@ -211,6 +211,10 @@ private:
       ++counts[id];
       times.insert(time);
     }
+    if (times.empty())
+    {
+      throw InputError(this->Path, "has a chunk without messages");
+    }
     this->count("chunk", timeOf(this->Path, record.fields, "start_time"), *times.begin());
     this->count("chunk", timeOf(this->Path, record.fields, "end_time"), *times.rbegin());
     this->count("chunk", numberOf<std::uint32_t>(this->Path, record.fields, "count"), counts.size());

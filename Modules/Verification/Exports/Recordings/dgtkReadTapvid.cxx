@@ -21,12 +21,17 @@ namespace
 /// An array of a .npz, as it stands there.
 struct Array
 {
+  std::string file; ///< for errors
   std::string type;
   std::vector<std::size_t> shape;
   std::string bytes;
   template <typename T>
   T at(std::size_t i) const
   {
+    if (i >= this->bytes.size() / sizeof(T))
+    {
+      throw InputError(this->file, "has an array that is too short");
+    }
     T value{};
     std::memcpy(&value, this->bytes.data() + i * sizeof(T), sizeof(T));
     return value;
@@ -48,7 +53,7 @@ Array arrayOf(const std::string& path, const std::string& bytes)
     throw InputError(path, "has a member that is no .npy");
   }
   const std::string text = bytes.substr(10, head - 10);
-  Array array{ between(text, "'descr': '", "'"), {}, bytes.substr(head) };
+  Array array{ path, between(text, "'descr': '", "'"), {}, bytes.substr(head) };
   std::size_t values = 1;
   std::string number;
   for (const char c : between(text, "'shape': (", ")") + ',')
@@ -173,9 +178,9 @@ void judgeVideo(ExportJudge& judge, const std::string& folder, const std::vector
       const bool there = std::isfinite(place.u);
       const double x = there ? place.u / camera->width : 0;
       const double y = there ? place.v / camera->height : 0;
-      const double apart = std::max(std::abs(double(points.at<float>(2 * at)) - x) - 6e-8 * std::abs(x),
-        std::abs(double(points.at<float>(2 * at + 1)) - y) - 6e-8 * std::abs(y));
-      judge.number("points", "share", file, where, std::max(0.0, apart), 0, 1e-12);
+      const double off = larger(beyond(std::abs(double(points.at<float>(2 * at)) - x), 6e-8 * std::abs(x)),
+        beyond(std::abs(double(points.at<float>(2 * at + 1)) - y), 6e-8 * std::abs(y)));
+      judge.number("points", "share", file, where, off, 0, 1e-12);
       judge.holds("occluded", file, where, (occluded.at<std::uint8_t>(at) == 0) == (place.visibility == 1), "other",
         "class " + std::to_string(int(place.visibility)));
     }
@@ -183,10 +188,9 @@ void judgeVideo(ExportJudge& judge, const std::string& folder, const std::vector
     {
       const auto t = std::size_t(first[number]);
       const TrackPlace& place = places[t][number];
-      const double apart = std::max({ std::abs(double(queries.at<float>(3 * i)) - double(t)),
-        std::abs(double(queries.at<float>(3 * i + 1)) - place.v),
-        std::abs(double(queries.at<float>(3 * i + 2)) - place.u) });
-      judge.number("queries", "px", file, where, apart, 0, 6e-8 * (camera->width + camera->height));
+      const Eigen::Vector3d query(queries.at<float>(3 * i), queries.at<float>(3 * i + 1), queries.at<float>(3 * i + 2));
+      const double off = apart(query, Eigen::Vector3d(double(t), place.v, place.u));
+      judge.number("queries", "px", file, where, off, 0, 6e-8 * (camera->width + camera->height));
     }
   }
 }

@@ -94,10 +94,11 @@ void judgeHead(ExportJudge& judge, const std::string& file, std::vector<std::str
   const auto isOfLicense = [](const std::string& line) { return line.rfind("license", 0) == 0; };
   lines.erase(std::remove_if(lines.begin(), lines.end(), isOfLicense), lines.end());
   const std::size_t pictures = judge.source().record().names.size();
-  const std::string size = pictures < 1000     ? "n<1K"
-                           : pictures < 10000  ? "1K<n<10K"
-                           : pictures < 100000 ? "10K<n<100K"
-                                               : "100K<n<1M";
+  const std::string size = pictures < 1000      ? "n<1K"
+                           : pictures < 10000   ? "1K<n<10K"
+                           : pictures < 100000  ? "10K<n<100K"
+                           : pictures < 1000000 ? "100K<n<1M"
+                                                : "1M<n<10M";
   const std::vector<std::string> expected{ "tags:", "- synthetic", "size_categories:", "- \"" + size + '"',
     "configs:", "- config_name: default", "  data_files:" };
   for (std::size_t i = 0; i < expected.size(); ++i)

@@ -83,7 +83,7 @@ public:
                            *children.rbegin() < nodes.size() && nodes.at(0).at("children").size() == children.size() &&
                            nodes.at(0).at("name") == "world");
     const Eigen::Matrix3d turn = this->affine(0, 0).linear();
-    this->holds("world", (turn - this->Up).cwiseAbs().maxCoeff() < 1e-12 && this->Channels.count(0) == 0);
+    this->holds("world", apart(turn, this->Up) < 1e-12 && this->Channels.count(0) == 0);
     for (std::size_t i = 1; i < nodes.size(); ++i)
     {
       const Json& node = nodes[i];
@@ -287,7 +287,7 @@ private:
         const Eigen::Vector3d expected = this->Metres * (pose.matrix * model.vertex(i).x.homogeneous());
         const Eigen::Vector3d found = world * Eigen::Vector3d(points.col(Eigen::Index(i)));
         size = std::max(size, expected.norm());
-        largest = std::max(largest, (found - expected).norm());
+        largest = larger(largest, (found - expected).norm());
       }
       this->Judge.number(
         "vertices", "of the distance from the origin", this->File, object->name, largest / size, 0, 1e-6);
@@ -406,9 +406,9 @@ private:
       for (std::size_t i = 0; i < model.vertices(); ++i)
       {
         const Eigen::Vector2d expected(model.vertex(i).uv.x(), 1 - model.vertex(i).uv.y());
-        const double apart = (uvs.row(Eigen::Index(i)).transpose() - expected).cwiseAbs().maxCoeff();
+        const double off = apart(uvs.row(Eigen::Index(i)).transpose(), expected);
         this->Judge.number(
-          "texture coordinates", "1", this->File, where, apart / std::max(1.0, expected.norm()), 0, single);
+          "texture coordinates", "1", this->File, where, off / std::max(1.0, expected.norm()), 0, single);
       }
     }
   }

@@ -167,9 +167,7 @@ private:
           const double value = found.values[at];
           const bool same = value == want || (std::isnan(value) && std::isnan(want));
           const double slack = key.kind == Hdf5Dataset::Kind::Real ? half * std::abs(want) : 0;
-          const double apart = same                       ? 0
-                               : std::isnan(value - want) ? infinite
-                                                          : std::max(0.0, std::abs(value - want) - slack);
+          const double apart = same ? 0 : std::isnan(value - want) ? infinite : beyond(std::abs(value - want), slack);
           if (apart > largest)
           {
             largest = apart;

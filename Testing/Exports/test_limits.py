@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What formats cannot say is refused from where it begins: of one small dataset copies are changed a little, and a little less."""
+import json
+import os
+import pickle
+import shutil
+import subprocess
+import tempfile
+
+import h5py
+import numpy as np
+
+import datasets
+from datasets import load_json, main, read_png
+from harness import DGTK
+from test_kitti import labels
+
+FORMATS = "nerf-synthetic,middlebury,kitti-odometry,kitti-object,kitti-depth,kitti2015,colmap,transforms,voc,tum,tapvid,hdf5"
+PAIR = ("--cameras", "left,right")
+
+
+def scene_in(folder):
+    """A pair, and beside it a fisheye with two pinhole twins, of which the first has another height."""
+    path = datasets.street(folder, width=24, height=18)
+    scene = load_json(path)
+    for camera, name in zip(scene["cameras"], ("left", "right")):
+        camera["name"] = name
+    small = {"width": 24, "height": 18}
+    scene["cameras"] += [
+        {**datasets._camera("lens", [0.3, 0.2, 4.2], [0, 0, 0], **small), "model": "fisheye", "K": [[10, 0, 12], [0, 10, 9], [0, 0, 1]]},
+        datasets._camera("a flat one", [0.3, 0.2, 4.2], [0, 0, 0], **{**small, "height": 16}),
+        datasets._camera("flat", [0.3, 0.2, 4.2], [0, 0, 0], **small)]
+    return datasets._write(folder, "limits", scene)
+
+
+class Limits(datasets.ExportCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folders = tempfile.mkdtemp(prefix="dgtk-limits-")
+        cls.addClassCleanup(shutil.rmtree, cls.folders, ignore_errors=True)
+        cls.dataset = os.path.join(cls.folders, "dataset")
+        done = subprocess.run([DGTK, "render", scene_in(cls.folders), "-o", cls.dataset, "--for", FORMATS, "--color-bits", "16", "--quiet"], capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(done.stderr)
+
+    def changed(self, name, edit):
+        """The dataset with another document: `edit` is given what it holds."""
+        copy = self.path(f"changed-{len(os.listdir(self.folder))}")
+        shutil.copytree(self.dataset, copy, copy_function=os.link)
+        document = load_json(os.path.join(copy, name))
+        edit(document)
+        os.remove(os.path.join(copy, name))
+        with open(os.path.join(copy, name), "w", encoding="utf-8") as file:
+            json.dump(document, file)
+        return copy
+
+    def with_cameras(self, edit, amount):
+        """`edit` changes a camera at a frame by an amount."""
+        return self.changed("cameras.json", lambda document: [edit(camera, camera["name"], camera["frame"], amount) for camera in document["cameras"]])
+
+    def nothing(self, form, dataset, says, *options):
+        target = self.path(f"no-{len(os.listdir(self.folder))}")
+        self.refused("export", dataset, "--format", form, "-o", target, *options, status=2, says=says)
+        self.assertFalse(os.path.exists(target))
+
+    def refuses(self, form, says, edit, amount, small, *options):
+        with self.subTest(form=form, says=says):
+            self.nothing(form, self.with_cameras(edit, amount), says, *options)
+            self.export(self.with_cameras(edit, small), form, *options, verify=False)
+
+    def test_cameras(self):
+        def lower(camera, name, frame, amount):
+            camera["K"][1][2] += amount
+
+        def skewed(camera, name, frame, amount):
+            camera["K"][0][1] += amount
+
+        def behind(camera, name, frame, amount):
+            camera["t"][2] += amount * (name == "right")
+
+        def apart(camera, name, frame, amount):  # the baseline is 0.2
+            camera["t"][0] -= 0.2 * amount * (name == "right" and frame == 1)
+
+        def drifting(camera, name, frame, amount):
+            camera["t"][1] += amount * (name == "right" and frame == 1)
+
+        def beside(camera, name, frame, amount):
+            camera["t"][0] += amount * (name != "lens")
+
+        def rolling(camera, name, frame, amount):
+            if amount > 0:
+                camera["rollingShutter"] = {"duration": amount, "direction": "down"}
+
+        def prisms(camera, name, frame, amount):
+            camera["distortion"] = [0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, amount]
+
+        def zooming(camera, name, frame, amount):
+            camera["K"][0][0] += amount * (frame == 1)
+
+        self.refuses("nerf-synthetic", "has its principal point beside the middle", lower, 3, 1e-12, "--cameras", "left")
+        self.refuses("nerf-synthetic", "has pixels that are not square", skewed, 1e-3, 0, "--cameras", "left")
+        self.refuses("middlebury", "has no square pixels", skewed, 1e-3, 0, *PAIR)
+        self.refuses("middlebury", "no two cameras are a rectified pair", behind, 1e-3, 1e-12, *PAIR)
+        self.refuses("kitti-odometry", "are not equally far apart at all frames", apart, 1e-2, 1e-12, *PAIR)
+        self.refuses("colmap", "no two cameras keep their places to each other", drifting, 1e-5, 1e-12, "--rigs", *PAIR)
+        for form in ("tum", "colmap", "transforms"):
+            self.refuses(form, "a rolling shutter", rolling, 0.01, 0, "--cameras", "left")
+        self.refuses("colmap", "thin prisms", prisms, 1e-3, 0, "--cameras", "left")
+        self.refuses("kitti-depth", "has another matrix at frame 1", zooming, 1e-3, 0, "--cameras", "left")
+        self.refuses("tum", "needs a pinhole twin", beside, 1e-5, 1e-12, "--undistort", "--cameras", "lens")
+
+    def refuses_documents(self, form, says, edit, most, *options):
+        """One more than `most` is refused."""
+        def copy(count):
+            return self.changed("objects.json", lambda document: edit(document, count))
+
+        with self.subTest(form=form, says=says):
+            self.nothing(form, copy(most + 1), says, *options)
+            self.export(copy(most), form, *options, verify=False)
+
+    def test_codes(self):
+        """KITTI 2015 numbers objects, VOC classes, with 8 bits; 255 is VOC's border."""
+        def objects(document, count):
+            last = document["objects"][-1]
+            document["objects"] += [{**last, "id": 1000 + i, "name": f"more {i}"} for i in range(count - len(document["objects"]))]
+
+        def classes(document, count):
+            last = document["classes"][-1]
+            document["classes"] += [{**last, "id": 1000 + i, "name": f"more {i}"} for i in range(count - len(document["classes"]))]
+
+        self.refuses_documents("kitti2015", "255 objects (found 256)", objects, 255, *PAIR)
+        self.refuses_documents("voc", "more than 254 classes", classes, 254)
+        self.nothing("kitti2015", self.dataset, "foreground: no class 'Lorry' (expected one of ", *PAIR, "--foreground", "Car,Lorry")
+
+    def test_a_class_that_kitti_means_otherwise(self):
+        def rename(document):
+            for box in document["objects"]:
+                box["class"] = "DontCare" if box["class"] == "Car" else box["class"]
+
+        copy = self.changed("left/boxes/000000.json", rename)
+        folder, _ = self.export(copy, "kitti-object", "--cameras", "left")
+        name = "training/label_2/000000.txt"
+        kinds = {kind for kind, _ in labels(os.path.join(folder, name))}
+        self.assertIn("DontCare_2", kinds)
+        self.assertNotIn("DontCare", kinds)
+        self.assertIn("layer type", self.planted(copy, folder, name, lambda text: text.replace(b"DontCare_2", b"DontCare")))
+
+    def test_a_twin_has_width_and_height(self):
+        _, record = self.export(self.dataset, "tum", "--undistort", "--cameras", "lens")
+        self.assertEqual({one["camera"] for one in record["names"]}, {"flat"})
+
+    def test_what_is_hidden_of_a_label(self):
+        """0: at most a tenth, 1: at most a half, 2: more."""
+        rows = [(20, 0), (18, 0), (17, 1), (10, 1), (9, 2)]  # visible of 20, class
+
+        def hide(document):
+            self.assertEqual(len(document["objects"]), len(rows))
+            for box, (visible, _) in zip(document["objects"], rows):
+                box.update(pixels_visible=visible, pixels_amodal=20, pixels_whole=20, visible_fraction=visible / 20)
+
+        folder, _ = self.export(self.changed("left/boxes/000000.json", hide), "kitti-object", "--cameras", "left", verify=False)
+        found = labels(os.path.join(folder, "training", "label_2", "000000.txt"))
+        self.assertEqual([numbers[1] for _, numbers in found], [hidden for _, hidden in rows])
+
+    def test_sixteen_bits_are_rounded_to_eight(self):
+        wide = read_png(os.path.join(self.dataset, "left", "color", "000000.png"), (16, 3)).astype(int)
+        self.assertTrue((wide % 257 > 128).any())
+        rounded = (wide + 128) // 257
+        folder, _ = self.export(self.dataset, "tapvid", "--cameras", "left")
+        with open(os.path.join(folder, "tapvid.pkl"), "rb") as file:
+            self.assertTrue(np.array_equal(pickle.load(file)["left"]["video"][0], rounded))
+        folder, _ = self.export(self.dataset, "hdf5", "--cameras", "left")
+        with h5py.File(os.path.join(folder, "0.hdf5"), "r") as file:
+            self.assertTrue(np.array_equal(file["colors"][()], rounded))
+
+
+if __name__ == "__main__":
+    main()
