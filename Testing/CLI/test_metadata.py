@@ -181,7 +181,7 @@ class Metadata(Case):
         corners = np.stack([vertices[axis] for axis in "xyz"], axis=-1)[faces["v"]].reshape(-1, 3)
         np.testing.assert_allclose([corners.min(axis=0), corners.max(axis=0)], info["bounds"], atol=1e-12)
         back = json.loads(self.dgtk("info", os.path.join(folder, of["a"]["geometry_file"]), "--json").stdout)
-        self.assertEqual((back["triangles"], [t["found"] for t in back["textures"]]), (info["triangles"], [True]))
+        self.assertEqual((back["triangles"], [t["found"] for t in back["textures"]]), (info["triangles"], [True, True]))
         np.testing.assert_allclose(np.linalg.norm([vertices[n] for n in ("nx", "ny", "nz")], axis=0), 1, atol=1e-6)
         self.dgtk("verify", folder)
         self.dgtk("render", self.path("out.json"), "-o", folder, "--layers", "depth", "--models", "--frames", "5", "--resume", "--quiet")

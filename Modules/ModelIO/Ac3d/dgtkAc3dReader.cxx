@@ -185,6 +185,7 @@ private:
   void beginObject()
   {
     this->finishObject();
+    this->closeLevels();
     this->InObject = true;
     this->HasObjects = true;
     this->Object.begin(this->Levels.empty() ? Affine3() : this->Levels.back().root_from_object,
@@ -209,6 +210,11 @@ private:
       }
       this->Levels.push_back(std::move(level));
     }
+    this->closeLevels();
+  }
+
+  void closeLevels()
+  {
     while (!this->Levels.empty() && this->Levels.back().kidsLeft == 0)
     {
       this->Levels.pop_back();

@@ -139,7 +139,7 @@ std::vector<double> GltfFile::numbers(std::size_t index, std::size_t components,
     const std::vector<double> values = this->list(sparse.at("values"), type, changes, components, normalized);
     for (std::size_t i = 0; i < changes; ++i)
     {
-      if (!(places[i] < double(count)))
+      if (!(places[i] >= 0 && places[i] < double(count)))
       {
         GltfFile::fail("an accessor changes what is not there");
       }

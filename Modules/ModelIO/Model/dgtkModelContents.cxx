@@ -65,6 +65,17 @@ std::shared_ptr<Image> maskedImage(const Image* own, const Image& mask, MaskValu
   return made;
 }
 
+/// Some texels, or all, are not there.
+bool hasHoles(const Image& image)
+{
+  std::uint8_t least = 255;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+  {
+    least = std::min(least, image.rgba[i]);
+  }
+  return least < 128;
+}
+
 /// Makes the textures of a model of what it names, each file decoded once.
 class PictureMaker
 {
@@ -255,20 +266,29 @@ private:
     const double opacity = mask ? material.opacity : 1;
     material.opacity = 1;
     const std::shared_ptr<const Image> image = this->imageOf(material);
-    if (!image || !image->hasAlpha || (mask && cutOff == 0.5 && opacity == 1))
+    const bool isOpaque = image && !image->hasAlpha && opacity >= cutOff;
+    if (!image || isOpaque || (mask && cutOff == 0.5 && opacity == 1))
     {
       return;
     }
     const auto [known, isNew] = this->Remade.try_emplace({ material.texture, cutOff, opacity }, 0);
     if (isNew)
     {
+      const auto bytes = std::uint64_t(image->rgba.size());
+      const std::string& name = this->Made.textures[static_cast<std::size_t>(material.texture)].name;
+      this->Store->take(name, image->width, image->height, bytes);
       auto remade = std::make_shared<Image>(*image);
       for (std::size_t i = 3; i < remade->rgba.size(); i += 4)
       {
         remade->rgba[i] = remade->rgba[i] * opacity / 255 >= cutOff ? 255 : 0;
       }
+      if (hasHoles(*remade) && !isCutOut(*remade))
+      {
+        remade->rgba[3] = 1; // of a file, alpha that is 0 everywhere is taken as absent (AlphaRule::Painted)
+      }
       dgtk::settleAlpha(*remade, AlphaRule::Meant);
       Texture texture = this->Made.textures[static_cast<std::size_t>(material.texture)];
+      texture.path.clear(); // it is in no file
       texture.image = remade;
       known->second = static_cast<int>(this->Made.textures.size());
       this->Made.textures.push_back(texture);
@@ -283,12 +303,14 @@ private:
 
   void settleCutOuts()
   {
-    std::map<const Image*, bool> known;
-    for (Material& material : this->Made.materials)
+    std::map<std::pair<const Image*, bool>, bool> known;
+    for (std::size_t i = 0; i < this->Made.materials.size(); ++i)
     {
+      Material& material = this->Made.materials[i];
       const std::shared_ptr<const Image> image = this->imageOf(material);
-      const auto [entry, isNew] = known.try_emplace(image.get(), false);
-      entry->second = isNew && image ? isCutOut(*image) : entry->second;
+      const bool mayBeGone = this->Contents.alpha[i].use == AlphaUse::CutOff; // all of it
+      const auto [entry, isNew] = known.try_emplace({ image.get(), mayBeGone }, false);
+      entry->second = isNew && image ? (mayBeGone ? hasHoles(*image) : isCutOut(*image)) : entry->second;
       material.cutOut = entry->second;
     }
     for (Texture& texture : this->Made.textures)

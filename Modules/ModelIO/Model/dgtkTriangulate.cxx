@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -36,9 +37,14 @@ Points2 flatten(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3
   return flat;
 }
 
-/// Every corner turns left, and the boundary goes round once.
-bool isConvex(const Points2& p)
+/// Every corner turns left, and the boundary goes round once. Corners that stand there twice count once.
+bool isConvex(Points2 p)
 {
+  p.erase(std::unique(p.begin(), p.end()), p.end());
+  if (p.front() == p.back())
+  {
+    p.pop_back();
+  }
   double around = 0;
   const std::size_t n = p.size();
   for (std::size_t i = 0; i < n; ++i)

@@ -2,6 +2,7 @@
 #include "dgtkPlyHeader.h"
 
 #include "dgtkError.h"
+#include "dgtkModelBuilder.h"
 #include "dgtkTextLines.h"
 
 #include <algorithm>
@@ -90,18 +91,17 @@ private:
     const std::string& word = this->Words[0];
     if (word == "comment")
     {
-      const bool isPicture = this->Words.size() > 2 && this->Words[1] == "TextureFile";
-      this->Pictures += isPicture ? 1 : 0;
-      if (isPicture && this->Header.texture.empty())
+      std::vector<PlyPicture>& pictures = this->Header.pictures;
+      if (this->Words.size() > 2 && this->Words[1] == "TextureFile")
       {
         // a name may have blanks in it
         const std::size_t at = this->Text.find(this->Words[2], this->Text.find("TextureFile") + 11);
         const std::size_t end = this->Text.find_last_not_of(" \t\r") + 1;
-        this->Header.texture = this->Words.size() == 3 ? this->Words[2] : this->Text.substr(at, end - at);
+        pictures.push_back({ this->Words.size() == 3 ? this->Words[2] : this->Text.substr(at, end - at), {} });
       }
-      else if (this->Words.size() == 4 && this->Words[1] == "TextureWrap" && this->Pictures == 1)
+      else if (this->Words.size() == 4 && this->Words[1] == "TextureWrap" && !pictures.empty())
       {
-        this->Header.wrap = { wrapOf(this->Words[2]), wrapOf(this->Words[3]) };
+        pictures.back().wrap = { wrapOf(this->Words[2]), wrapOf(this->Words[3]) };
       }
     }
     else if (word == "format")
@@ -225,7 +225,6 @@ private:
   const std::string& Path;
   const std::string& Contents;
   PlyHeader Header;
-  std::size_t Pictures = 0; ///< named so far
   TextLines Lines;
   std::string Text;
   std::vector<std::string> Words;
@@ -252,6 +251,29 @@ int PlyElement::find(std::initializer_list<const char*> names) const
     }
   }
   return -1;
+}
+
+PlyColor::PlyColor(const PlyElement& element)
+  : Red(element.find({ "red", "diffuse_red", "r" }))
+  , Green(element.find({ "green", "diffuse_green", "g" }))
+  , Blue(element.find({ "blue", "diffuse_blue", "b" }))
+  , Alpha(element.find({ "alpha", "diffuse_alpha", "a" }))
+{
+  const PlyType type = this->Red < 0 ? PlyType::Float32 : element.properties[static_cast<std::size_t>(this->Red)].type;
+  const bool real = type == PlyType::Float32 || type == PlyType::Float64;
+  this->White = real ? 1 : bytesOf(type) == 1 ? 255 : bytesOf(type) == 2 ? 65535 : 4294967295.0;
+}
+
+Eigen::Vector3d PlyColor::in(const std::vector<double>& row) const
+{
+  const auto at = [&row](int property) { return PlyElement::valueAt(row, property); };
+  return Eigen::Vector3d(at(this->Red), at(this->Green), at(this->Blue)) / this->White;
+}
+
+std::array<std::uint8_t, 4> PlyColor::bytesIn(const std::vector<double>& row) const
+{
+  const double alpha = this->Alpha < 0 ? 1 : PlyElement::valueAt(row, this->Alpha) / this->White;
+  return colorBytes(this->in(row).data(), alpha);
 }
 
 PlyHeader readPlyHeader(const std::string& path, const std::string& contents)

@@ -4,6 +4,7 @@
 
 #include "dgtkModel.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,6 +42,35 @@ struct PlyElement
 
   /// Index of the first property with one of the names, or -1.
   int find(std::initializer_list<const char*> names) const;
+  /// Of a property in one of the rows; 0 for -1.
+  static double valueAt(const std::vector<double>& row, int property)
+  {
+    return property < 0 ? 0.0 : row[static_cast<std::size_t>(property)];
+  }
+};
+
+/// The colour of an element, from its rows.
+class PlyColor
+{
+public:
+  explicit PlyColor(const PlyElement& element);
+  bool exists() const { return this->Red >= 0 && this->Green >= 0 && this->Blue >= 0; }
+  Eigen::Vector3d in(const std::vector<double>& row) const; ///< white at 1
+  std::array<std::uint8_t, 4> bytesIn(const std::vector<double>& row) const;
+
+private:
+  int Red;
+  int Green;
+  int Blue;
+  int Alpha;
+  double White = 1;
+};
+
+/// A picture that the header names.
+struct PlyPicture
+{
+  std::string name;    ///< of a line `comment TextureFile NAME`
+  TextureWraps wrap{}; ///< of a line `comment TextureWrap clamp mirror` behind it
 };
 
 struct PlyHeader
@@ -53,8 +83,7 @@ struct PlyHeader
   };
   Encoding encoding = Encoding::Ascii;
   std::vector<PlyElement> elements;
-  std::string texture;    ///< of a line `comment TextureFile NAME`
-  TextureWraps wrap{};    ///< of a line `comment TextureWrap clamp mirror` behind it
+  std::vector<PlyPicture> pictures;
   std::size_t bodyAt = 0; ///< offset of the first byte after the header
 };
 

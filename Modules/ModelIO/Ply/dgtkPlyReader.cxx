@@ -3,11 +3,14 @@
 #include "dgtkFile.h"
 #include "dgtkModelBuilder.h"
 #include "dgtkPlyHeader.h"
+#include "dgtkTextLines.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <optional>
 
 namespace dgtk
 {
@@ -108,7 +111,8 @@ private:
       this->fail("is no number", "a number", quoted(std::string(p, std::min<std::ptrdiff_t>(word - p, 60))));
     }
     this->At = static_cast<std::size_t>(parsed.ptr - begin);
-    return value;
+    const std::string_view word(p, static_cast<std::size_t>(parsed.ptr - p));
+    return parsed.ec == std::errc::result_out_of_range ? *parseNumber(word) : value;
   }
 
   template <class T>
@@ -146,13 +150,6 @@ private:
   PlyHeader::Encoding Encoding;
   std::size_t At;
 };
-
-/// Largest value of an unsigned colour; 1 for floating point.
-double white(PlyType type)
-{
-  const bool real = type == PlyType::Float32 || type == PlyType::Float64;
-  return real ? 1 : bytesOf(type) == 1 ? 255 : bytesOf(type) == 2 ? 65535 : 4294967295.0;
-}
 
 class PlyAssembly
 {
@@ -211,16 +208,13 @@ private:
   {
     const int axes[3] = { element.find({ "x" }), element.find({ "y" }), element.find({ "z" }) };
     const int normals[3] = { element.find({ "nx" }), element.find({ "ny" }), element.find({ "nz" }) };
-    const int colors[3] = { element.find({ "red", "diffuse_red", "r" }),
-      element.find({ "green", "diffuse_green", "g" }), element.find({ "blue", "diffuse_blue", "b" }) };
-    const int alpha = element.find({ "alpha", "diffuse_alpha", "a" });
+    const PlyColor colors(element);
     const int uvs[2] = { element.find({ "s", "u", "texture_u", "texture_s" }),
       element.find({ "t", "v", "texture_v", "texture_t" }) };
     this->HasUvs = uvs[0] >= 0 && uvs[1] >= 0;
     const bool hasNormals = normals[0] >= 0 && normals[1] >= 0 && normals[2] >= 0;
-    const bool hasColors = colors[0] >= 0 && colors[1] >= 0 && colors[2] >= 0;
     std::vector<double> row(element.properties.size() + 1, 0);
-    const auto at = [&row](int property) { return property < 0 ? 0.0 : row[static_cast<std::size_t>(property)]; };
+    const auto at = [&row](int property) { return PlyElement::valueAt(row, property); };
     this->Builder.reserve(static_cast<std::size_t>(element.count), 0, 0);
     for (std::uint64_t i = 0; i < element.count; ++i)
     {
@@ -244,12 +238,11 @@ private:
       {
         this->Uvs.push_back({ static_cast<float>(at(uvs[0])), static_cast<float>(at(uvs[1])) });
       }
-      if (hasColors)
+      if (colors.exists())
       {
-        const double scale = white(element.properties[static_cast<std::size_t>(colors[0])].type);
-        const Eigen::Vector3d color = Eigen::Vector3d(at(colors[0]), at(colors[1]), at(colors[2])) / scale;
+        const Eigen::Vector3d color = colors.in(row);
         this->ColorsVary = this->ColorsVary || (i > 0 && color != this->Color);
-        this->Colors.push_back(colorBytes(color.data(), alpha >= 0 ? at(alpha) / scale : 1.0));
+        this->Colors.push_back(colors.bytesIn(row));
         this->ColorsVary = this->ColorsVary || this->Colors.back()[3] < 255;
         this->Color = color;
         this->HasColors = true;
@@ -279,31 +272,38 @@ private:
     return corner;
   }
 
-  /// The one material: a picture that the header names, and the vertices' colour when it is the same everywhere.
-  int material()
+  /// One for each picture of the header, by its number, and one without; each white where its corners are `colored`.
+  int material(double number, bool colored)
   {
-    if (this->Material < 0)
+    const std::vector<PlyPicture>& pictures = this->Header.pictures;
+    const auto count = static_cast<double>(pictures.size());
+    const bool isKnown = number >= 0 && number < count;
+    this->LostPictures += count > 0 && number >= count ? 1 : 0;
+    const std::size_t picture = isKnown ? static_cast<std::size_t>(number) : pictures.size();
+    const auto [known, isNew] = this->Materials.try_emplace({ picture, colored }, -1);
+    if (isNew && isKnown)
+    {
+      const int plain = this->material(-1, colored);
+      const auto& [name, wrap] = pictures[picture];
+      known->second = this->Builder.withTexture(plain, this->Builder.addTexture(name, {}, {}, wrap));
+    }
+    else if (isNew)
     {
       dgtk::Material made;
       made.name = "ply";
-      if (this->HasColors && !this->ColorsVary && this->Color.allFinite())
-      {
-        made.diffuse = this->Color;
-        made.ambient = 0.2 * this->Color;
-      }
-      if (this->ColorsVary)
+      if (colored)
       {
         made.diffuse.setOnes();
         this->Builder.setHasColors();
       }
-      this->Material = this->Builder.addMaterial(made);
-      if (!this->Header.texture.empty())
+      else if (this->HasColors && this->Color.allFinite())
       {
-        this->Material = this->Builder.withTexture(
-          this->Material, this->Builder.addTexture(this->Header.texture, {}, {}, this->Header.wrap));
+        made.diffuse = this->Color;
+        made.ambient = 0.2 * this->Color;
       }
+      known->second = this->Builder.addMaterial(made);
     }
-    return this->Material;
+    return known->second;
   }
 
   void readSurfaces(const PlyElement& element)
@@ -311,6 +311,11 @@ private:
     const int indices = element.find({ "vertex_indices", "vertex_index" });
     const int wedges = element.find({ "texcoord" });
     const int ends[2] = { element.find({ "vertex1" }), element.find({ "vertex2" }) };
+    const int numbers = element.find({ "texnumber" });
+    const PlyColor colors(element);
+    const bool colored = colors.exists() && !this->HasColors;
+    this->HasNumbers = this->HasNumbers || numbers >= 0;
+    this->LostColors = this->LostColors || (colors.exists() && this->HasColors);
     std::vector<double> row(element.properties.size() + 1, 0);
     std::vector<double> list;
     std::vector<double> uvs;
@@ -338,6 +343,11 @@ private:
           }
         }
       }
+      if (element.name != "edge")
+      {
+        this->Material = this->material(PlyElement::valueAt(row, numbers), colored || this->ColorsVary);
+        this->FaceColor = colored ? std::optional(colors.bytesIn(row)) : std::nullopt;
+      }
       if (element.name == "face")
       {
         this->addFace(list, uvs);
@@ -357,12 +367,13 @@ private:
   void addFace(const std::vector<double>& list, const std::vector<double>& uvs)
   {
     SurfaceStyle style;
-    style.material = this->material();
+    style.material = this->Material;
     style.shading = Shading::Crease;
     this->Corners.clear();
     for (std::size_t i = 0; i < list.size(); ++i)
     {
       this->Corners.push_back(this->corner(list[i]));
+      this->Corners.back().color = this->FaceColor.value_or(this->Corners.back().color);
       if (uvs.size() == 2 * list.size())
       {
         this->Corners.back().u = static_cast<float>(uvs[2 * i]);
@@ -407,6 +418,19 @@ private:
     {
       this->Builder.warn("has no surfaces: points are not drawn");
     }
+    else if (this->Header.pictures.size() > 1 && !this->HasNumbers)
+    {
+      this->Builder.warn(
+        "faces have no texnumber: all have the first picture of " + std::to_string(this->Header.pictures.size()));
+    }
+    if (this->LostPictures > 0)
+    {
+      this->Builder.warn(std::to_string(this->LostPictures) + " face(s) name a picture that does not exist");
+    }
+    if (this->LostColors)
+    {
+      this->Builder.warn("colours of faces are not drawn: vertices have their own");
+    }
     this->Builder.keep({}, ModelContents::worthwhile);
     return this->Builder.finish();
   }
@@ -420,7 +444,12 @@ private:
   std::vector<Corner> Corners;
   std::uint64_t Vertices = 0;
   Eigen::Vector3d Color{ 0.8, 0.8, 0.8 };
-  int Material = -1;
+  std::map<std::pair<std::size_t, bool>, int> Materials; ///< by number of the picture, and whether corners are coloured
+  int Material = -1;                                     ///< of the face that is read
+  std::optional<std::array<std::uint8_t, 4>> FaceColor;
+  std::size_t LostPictures = 0; ///< faces
+  bool LostColors = false;      ///< of faces
+  bool HasNumbers = false;
   bool HasUvs = false;
   bool HasWedges = false;
   bool HasColors = false;

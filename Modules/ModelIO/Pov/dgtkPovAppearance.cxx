@@ -118,6 +118,7 @@ void PovAppearance::pigment(PovPigment& to)
   const PovPlace place = this->Stream.peek().place;
   Colors colors;
   bool pattern = false;
+  bool hasImage = false;
   this->Stream.expect('{', "pigment");
   while (this->Stream.goesOn('}', "a pigment"))
   {
@@ -138,6 +139,7 @@ void PovAppearance::pigment(PovPigment& to)
       continue;
     }
     this->Stream.take();
+    hasImage = hasImage || token.is("image_map");
     if (token.isOneOf(maps))
     {
       pattern = true;
@@ -154,6 +156,7 @@ void PovAppearance::pigment(PovPigment& to)
   {
     to.color = std::accumulate(colors.begin(), colors.end(), Eigen::Vector3d(0, 0, 0)) / double(colors.size());
     to.hasColor = true;
+    to.image = hasImage ? to.image : std::string(); // that of a declared one is painted over
   }
   if (pattern || colors.size() > 1)
   {

@@ -24,17 +24,19 @@ struct Solid
   std::vector<Eigen::Vector3d> corners;
 };
 
-std::uint64_t countOf(const std::string& bytes)
+/// Whether a word, of any case, is `known`, in lower case.
+bool is(std::string_view word, std::string_view known)
 {
-  return bytes.size() < headerBytes ? 0 : ByteReader(bytes, bytes).u32(headerBytes - 4);
+  return word.size() == known.size() && std::equal(word.begin(), word.end(), known.begin(),
+                                          [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
-/// Headers of binary files may say "solid", too: then their length tells.
+/// Headers of binary files may say "solid", too: these have a zero, if only in their count of triangles.
 bool isText(const std::string& bytes)
 {
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  return start != std::string::npos && bytes.compare(start, 5, "solid") == 0 &&
-         bytes.size() != headerBytes + facetBytes * countOf(bytes);
+  return start != std::string::npos && is(std::string_view(bytes).substr(start, 5), "solid") &&
+         bytes.find('\0') == std::string::npos;
 }
 
 Solid readBinary(const std::string& path, const std::string& bytes, bool& colored)
@@ -72,7 +74,8 @@ public:
   {
     while (this->At < this->Text.size() && std::isspace(static_cast<unsigned char>(this->Text[this->At])) != 0)
     {
-      this->Line += this->Text[this->At++] == '\n' ? 1 : 0;
+      const char c = this->Text[this->At++];
+      this->Line += c == '\n' || (c == '\r' && this->Text.substr(this->At, 1) != "\n") ? 1 : 0;
     }
     const std::size_t begin = this->At;
     while (this->At < this->Text.size() && std::isspace(static_cast<unsigned char>(this->Text[this->At])) == 0)
@@ -84,11 +87,11 @@ public:
   /// What is left of the line, without blanks at both ends.
   std::string_view restOfLine()
   {
-    const std::size_t end = std::min(this->Text.find('\n', this->At), this->Text.size());
+    const std::size_t end = std::min(this->Text.find_first_of("\r\n", this->At), this->Text.size());
     std::string_view rest = this->Text.substr(this->At, end - this->At);
     this->At = end;
-    const std::size_t first = rest.find_first_not_of(" \t\r");
-    const std::size_t last = rest.find_last_not_of(" \t\r");
+    const std::size_t first = rest.find_first_not_of(" \t");
+    const std::size_t last = rest.find_last_not_of(" \t");
     return first == std::string_view::npos ? std::string_view() : rest.substr(first, last - first + 1);
   }
   double number()
@@ -118,19 +121,19 @@ private:
 void readFacet(StlWords& words, std::vector<Eigen::Vector3d>& corners)
 {
   std::vector<Eigen::Vector3d> loop;
-  for (std::string_view word = words.next(); word != "endfacet"; word = words.next())
+  for (std::string_view word = words.next(); !is(word, "endfacet"); word = words.next())
   {
-    if (word == "vertex")
+    if (is(word, "vertex"))
     {
       const double x = words.number();
       const double y = words.number();
       loop.emplace_back(x, y, words.number());
     }
-    else if (word == "normal")
+    else if (is(word, "normal"))
     {
       words.restOfLine(); // what the vertices say counts
     }
-    else if (word != "outer" && word != "loop" && word != "endloop")
+    else if (!is(word, "outer") && !is(word, "loop") && !is(word, "endloop"))
     {
       words.refuse("vertex or endfacet", word);
     }
@@ -148,7 +151,7 @@ std::vector<Solid> readText(const std::string& path, const std::string& text)
   bool open = false;
   for (std::string_view word = words.next(); open || !word.empty(); word = words.next())
   {
-    if (word == (open ? "endsolid" : "solid"))
+    if (is(word, open ? "endsolid" : "solid"))
     {
       const std::string name(words.restOfLine());
       open = !open;
@@ -157,7 +160,7 @@ std::vector<Solid> readText(const std::string& path, const std::string& text)
         solids.push_back({ name, {} });
       }
     }
-    else if (open && word == "facet")
+    else if (open && is(word, "facet"))
     {
       readFacet(words, solids.back().corners);
     }

@@ -255,6 +255,12 @@ TEST(Studio3ds, DamageThatRealFilesHave)
                 meshFile(vertices(roof) + faces3ds({ 0, 1, 2 }, chunk3ds(0x4130, text3ds("no") + u16(1) + u16(0)))))
                 ->warnings,
     Contains(HasSubstr("name a material that does not exist")));
+
+  const auto badFace = readBytes(
+    "3ds", meshFile(vertices(roof) + faces3ds({ 0, 1, 2 }, chunk3ds(0x4130, text3ds("m") + u16(2) + u16(0) + u16(99))),
+             chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")))));
+  EXPECT_EQ(badFace->materials.at(std::size_t(badFace->parts.at(0).material)).name, "m");
+  EXPECT_THAT(badFace->warnings, Contains(HasSubstr("1 entries of materials name a face that does not exist")));
 }
 
 TEST(Studio3ds, Refusals)

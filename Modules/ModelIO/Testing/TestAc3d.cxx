@@ -141,6 +141,16 @@ TEST(Ac3d, KidsDoNotShiftTheirSiblings)
   expectNear(model->rest->positions[4], { 0, 0, 0 });
 }
 
+TEST(Ac3d, AKidWithoutKidsIsComplete)
+{
+  const std::string one = "OBJECT poly\n" + square + "SURF 0x00\n" + squareRefs;
+  const ModelPointer model =
+    read("AC3Db\n" + grey + "OBJECT world\nkids 2\n" + "OBJECT group\nloc 100 0 0\nkids 1\n" + one + one + "kids 0\n");
+  expectNear(model->boundsMin, { 0, 0, 0 });
+  expectNear(model->boundsMax, { 101, 1, 0 });
+  EXPECT_THAT(model->warnings, ElementsAre("1 object(s) end without 'kids'"));
+}
+
 TEST(Ac3d, LinesMoveWithTheirObject)
 {
   const ModelPointer model =
@@ -260,6 +270,14 @@ TEST(Ac3d, LayersForOtherPurposesAreNotTheTexture)
   }
 }
 
+TEST(Ac3d, ANameThatMeansNoTexture)
+{
+  const ModelPointer model =
+    read(object("texture \"empty_texture_no_mapping\"\n" + square + "SURF 0x00\n" + squareRefs));
+  EXPECT_TRUE(model->textures.empty());
+  EXPECT_THAT(model->warnings, IsEmpty());
+}
+
 TEST(Ac3d, ALineOfTwoPointsIsOneEvenClosed)
 {
   const ModelPointer line = read(object(square + "SURF 0x01\nmat 0\nrefs 2\n0 0 0\n2 0 0\n"));
@@ -286,6 +304,17 @@ TEST(Ac3d, NormalsBelongToTheVerticesThatHaveThem)
   EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, 1));
   EXPECT_LT((model->rest->normals[1] - Eigen::Vector3f(1, 0, 1).normalized()).norm(), 1e-6f);
   EXPECT_EQ(model->rest->normals[2], Eigen::Vector3f(0, 0, 1));
+}
+
+TEST(Ac3d, NormalsAreThoseOfTheirObject)
+{
+  const std::string rest = "numsurf 1\nSURF 0x00\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
+  const ModelPointer model = read("AC3Db\n" + grey + "OBJECT world\nkids 2\n" +
+                                  "OBJECT poly\nnumvert 3\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n" + rest +
+                                  "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\n" + rest);
+  ASSERT_EQ(model->triangles.size(), 2u);
+  EXPECT_EQ(model->rest->normals[model->triangles[0][0]], Eigen::Vector3f(1, 0, 0));
+  EXPECT_EQ(model->rest->normals[model->triangles[1][0]], Eigen::Vector3f(0, 0, 1));
 }
 
 TEST(Ac3d, EncodingsAndLineEndsDoNotMatter)

@@ -60,6 +60,20 @@ TEST(Fbx, MaterialsByPolygon)
   EXPECT_EQ(materialOf(1).opacity, 0.75);
 }
 
+TEST(Fbx, ExponentsOfTheOtherName)
+{
+  FbxMaker maker;
+  const std::int64_t node = maker.model();
+  maker.mesh(node);
+  const std::int64_t shiny = maker.add("Material", "");
+  maker.set(shiny, "SpecularColor", { 1, 1, 1 });
+  maker.set(shiny, "Shininess", FbxNumbers{ 20 });
+  maker.connect(shiny, node);
+  const auto model = readChecked(maker);
+  EXPECT_EQ(model->materials.at(0).shininess, 20);
+  expectNear(model->materials[0].specular, { 1, 1, 1 });
+}
+
 namespace
 {
 /// A triangle with a picture.

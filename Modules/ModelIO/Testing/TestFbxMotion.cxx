@@ -140,10 +140,11 @@ TEST(FbxMotion, TensionContinuityBias)
   const double t = 0.5;
   const double c = 0.25;
   const double b = -0.5;
-  Moving m({ { 0, 0, linear }, { 1, 2, 8 | 0x200, { t, c } }, { 3, 3, linear } });
+  Moving m({ { 0, 0, 8 | 0x200 }, { 1, 2, 8 | 0x200, { t, c } }, { 3, 3, linear } });
   m.Maker.item(m.Curve).children[3].values = { FbxMaker::Numbers{ 0, 0, 0, 0, t, c, b, 0, 0, 0, 0, 0 } };
-  const double slope = 0.5 * (1 - t) * ((1 + b) * (1 + c) * 2 + (1 - b) * (1 - c) * 0.5);
-  EXPECT_NEAR(m.at(1.5), hermite(2, slope * 2, 3, 0, 0.25), 1e-9) << "on its right";
+  const auto slope = [=](double s) { return 0.5 * (1 - t) * ((1 + b) * (1 + s) * 2 + (1 - b) * (1 - s) * 0.5); };
+  EXPECT_NEAR(m.at(0.5), hermite(0, 2, 2, slope(-c), 0.5), 1e-9) << "on its left";
+  EXPECT_NEAR(m.at(1.5), hermite(2, slope(c) * 2, 3, 0, 0.25), 1e-9) << "on its right";
 }
 
 TEST(FbxMotion, CurvesGoOnAsTheySay)

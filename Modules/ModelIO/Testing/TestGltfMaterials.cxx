@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkGltfMaker.h"
 #include "dgtkModelChecks.h"
 #include "dgtkTestSupport.h"
+#include "dgtkTextureFile.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -177,7 +179,7 @@ TEST(Gltf, SamplersSayHowPicturesGoOn)
 TEST(Gltf, AlphaOfAnEmbeddedPicture)
 {
   const std::string png(reinterpret_cast<const char*>(tinyPng), sizeof tinyPng);
-  const auto read = [&png](const Json& mode, double opacity = 1)
+  const auto read = [&png](const Json& mode, double opacity = 1, std::uint64_t bytes = 1000)
   {
     Json material = mode;
     material["pbrMetallicRoughness"] = { { "baseColorTexture", { { "index", 0 } } },
@@ -188,7 +190,9 @@ TEST(Gltf, AlphaOfAnEmbeddedPicture)
     maker.json["textures"] = { { { "source", 0 } } };
     const TemporaryFolder folder;
     dgtk::writeFile(folder.path("m.glb"), maker.glb());
-    return dgtk::readModel(folder.path("m.glb"));
+    dgtk::ReadOptions options;
+    options.textures = std::make_shared<dgtk::TextureStore>(bytes);
+    return dgtk::readModel(folder.path("m.glb"), options);
   };
   const auto alphas = [](const dgtk::Model& model)
   {
@@ -205,11 +209,65 @@ TEST(Gltf, AlphaOfAnEmbeddedPicture)
   EXPECT_TRUE(mask->materials[0].cutOut);
   const auto low = read({ { "alphaMode", "MASK" }, { "alphaCutoff", 0.25 } });
   EXPECT_EQ(alphas(*low), std::pair(255, 255)); // 0.4 is above the file's cut-off: it stays
+  EXPECT_FALSE(low->materials[0].cutOut);
+  const auto gone = read({ { "alphaMode", "MASK" }, { "alphaCutoff", 1.5 } });
+  EXPECT_EQ(alphas(*gone), std::pair(1, 0)); // as a file, 0 everywhere would be no alpha
+  EXPECT_TRUE(gone->materials[0].cutOut);
   // the factor counts, too: 0.6 and 0.24; 0.4 and 0.16
   EXPECT_EQ(alphas(*read({ { "alphaMode", "MASK" } }, 0.6)), std::pair(255, 0));
   EXPECT_EQ(alphas(*read({ { "alphaMode", "MASK" }, { "alphaCutoff", 0.2 } }, 0.6)), std::pair(255, 255));
   EXPECT_EQ(alphas(*read({ { "alphaMode", "MASK" }, { "alphaCutoff", 0.2 } }, 0.4)), std::pair(255, 0));
   EXPECT_EQ(read({ { "alphaMode", "MASK" } }, 0.6)->materials[0].opacity, 1);
+  // A picture that is made anew takes memory as one that is decoded: two pixels of four bytes.
+  EXPECT_NO_THROW(read({ { "alphaMode", "MASK" } }, 1, 8));
+  EXPECT_NO_THROW(read({ { "alphaMode", "MASK" } }, 0.6, 16));
+  EXPECT_THROW(read({ { "alphaMode", "MASK" } }, 0.6, 15), dgtk::MachineError);
+}
+
+TEST(Gltf, EachCutOffHasAPictureOfItsOwn)
+{
+  const TemporaryFolder folder;
+  const std::string png(reinterpret_cast<const char*>(tinyPng), sizeof tinyPng);
+  dgtk::writeFile(folder.path("paint.png"), png);
+  GltfMaker maker = placed({ { "index", 0 } }, { { "alphaMode", "MASK" }, { "alphaCutoff", 0.3 } });
+  maker.json["materials"].push_back(maker.json["materials"][0]);
+  maker.json["materials"][1]["alphaCutoff"] = 0.9;
+  Json& primitives = maker.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives[1]["material"] = 1;
+  dgtk::writeFile(folder.path("m.glb"), maker.glb());
+  const auto model = dgtk::readModel(folder.path("m.glb"));
+  ASSERT_EQ(model->parts.size(), 2u);
+  for (const std::size_t part : { 0, 1 })
+  {
+    const dgtk::Material& m = model->materials.at(std::size_t(model->parts[part].material));
+    const dgtk::Texture& texture = model->textures.at(std::size_t(m.texture));
+    EXPECT_EQ(int(texture.image->rgba[7]), part == 0 ? 255 : 0);
+    EXPECT_TRUE(model->holds(texture)) << "it is not what the file has";
+    EXPECT_EQ(m.cutOut, part == 1);
+  }
+  EXPECT_EQ(model->textures[0].path, folder.path("paint.png"));
+}
+
+TEST(Gltf, WhatIsBelowTheCutOffEverywhereIsGone)
+{
+  const TemporaryFolder folder;
+  dgtk::writeFile(folder.path("paint.ppm"), "P6 1 1 255\nabc");
+  const auto isGone = [&folder](double opacity, double cutOff)
+  {
+    GltfMaker maker = placed({ { "index", 0 } }, { { "alphaMode", "MASK" }, { "alphaCutoff", cutOff } });
+    maker.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = { 1, 1, 1, opacity };
+    maker.json["images"][0]["uri"] = "paint.ppm";
+    dgtk::writeFile(folder.path("m.glb"), maker.glb());
+    const auto model = dgtk::readModel(folder.path("m.glb"));
+    const dgtk::Material& m = model->materials.at(0);
+    EXPECT_EQ(int(model->textures.at(std::size_t(m.texture)).image->rgba[3]), m.cutOut ? 1 : 255);
+    return m.cutOut;
+  };
+  EXPECT_TRUE(isGone(0.25, 0.5));
+  EXPECT_TRUE(isGone(1, 1.5));
+  EXPECT_FALSE(isGone(0.5, 0.25));
+  EXPECT_FALSE(isGone(0.25, 0.25));
 }
 
 TEST(Gltf, MaterialsOfExtensions)

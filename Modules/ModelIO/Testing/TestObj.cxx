@@ -72,6 +72,7 @@ TEST(Obj, MaterialAndTextureFoundInAnyCase)
 {
   ObjFolder folder;
   folder.write("QUAD.MTL", quadMtl);
+  folder.write("Quad.Mtl", "");
   folder.write("tex.ppm", std::string("P6 1 1 255\n") + "abc");
   const auto model = folder.read(quad);
   EXPECT_EQ(brokenPromise(*model), "");
@@ -122,6 +123,7 @@ TEST(Obj, CoordinatesAreThoseOfTheText)
   EXPECT_EQ(model->rest->positions[1], Eigen::Vector3d(1, 0.5, 2));
   EXPECT_EQ(model->rest->positions[2], Eigen::Vector3d(2, 4, 1)) << "a weight divides";
   EXPECT_EQ(model->rest->positions.back(), Eigen::Vector3d(3, 3, 3)) << "a colour does not";
+  EXPECT_EQ(readBytes("obj", "v 1 2 3 0\nv 2 2 3 0\nv 1 3 3 0\nf 1 2 3\n")->boundsMin, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(model->triangles.size(), 2u);
   EXPECT_THAT(model->warnings, ElementsAre("1 surface left out: a vertex that does not exist",
                                  "1 surface left out: a coordinate that is not a finite number"));
@@ -183,6 +185,7 @@ TEST(Obj, WaysToNameACorner)
   EXPECT_EQ(corners("f 1// 2// 3//\n"), plain);
   EXPECT_EQ(
     corners("f 1//2 2//2 3//1\n"), (Corners{ { 0, 0, 0, 0, 0, -1 }, { 1, 0, 0, 0, 0, -1 }, { 0, 1, 0, 0, 1, 0 } }));
+  EXPECT_EQ(corners("o a\nf 1//1 2//1 3//1\no b\nf 1//1 2//1 3//1\n").at(5), (std::vector<double>{ 0, 1, 0, 0, 1, 0 }));
   EXPECT_EQ(corners("f 1/1 2/2 3/2\n"),
     (Corners{ { 0, 0, 0, 0, 0, 1, 0.25, 0.5 }, { 1, 0, 0, 0, 0, 1, 0.75, 1 }, { 0, 1, 0, 0, 0, 1, 0.75, 1 } }));
 }
@@ -298,7 +301,8 @@ TEST(Obj, PicturesBehindOptions)
 {
   ObjFolder folder;
   for (const char* options : { "", "-s 2 2 2 ", "-s 2 ", "-o 0.5 0.5 ", "-clamp on -blendu off ", "-mm 0 1 -bm 2 ",
-         "-imfchan l -texres 64 -t 1 ", "\t" })
+         "-imfchan l -texres 64 -t 1 ", "-imfchan l ", "-texres 64 ", "-clamp on ", "-blendu off ", "-blendv off ",
+         "-boost 1 ", "-type sphere ", "-cc on ", "\t" })
   {
     folder.write("a.mtl", std::string("newmtl m\nmap_Kd ") + options + "my stone.png \n");
     const auto model = folder.read("mtllib a.mtl\n" + triangle + "usemtl m\nf 1 2 3\n");

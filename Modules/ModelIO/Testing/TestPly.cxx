@@ -183,12 +183,15 @@ TEST(Ply, ColoursThatVaryAreOfTheVertices)
 
 TEST(Ply, ColoursMayBeTranslucent)
 {
-  std::string text = changed(asciiQuad, "uchar blue", "uchar blue\nproperty uchar alpha");
-  for (const char* row : { "0 0 255 51 0", "1 0 255 51 0", "1 1 255 51 0", "0 1 255 51 0" })
+  for (const char* name : { "alpha", "diffuse_alpha", "a" })
   {
-    text = changed(text, row, std::string(row) + " 128");
+    std::string text = changed(asciiQuad, "uchar blue", std::string("uchar blue\nproperty uchar ") + name);
+    for (const char* row : { "0 0 255 51 0", "1 0 255 51 0", "1 1 255 51 0", "0 1 255 51 0" })
+    {
+      text = changed(text, row, std::string(row) + " 128");
+    }
+    EXPECT_EQ(readBytes("ply", text)->colors, Colors(4, { 255, 51, 0, 128 })) << name;
   }
-  EXPECT_EQ(readBytes("ply", text)->colors, Colors(4, { 255, 51, 0, 128 }));
 }
 
 TEST(Ply, TheFirstVertexMayHaveAColourOfItsOwn)
@@ -263,18 +266,98 @@ TEST(Ply, HowThePictureGoesOn)
   EXPECT_EQ(wrapOf(first + second + wrap), (std::array{ TextureWrap::Repeat, TextureWrap::Repeat })) << "the second's";
 }
 
-TEST(Ply, ColoursOfTwoBytes)
+namespace
 {
-  std::string text = asciiQuad;
-  for (const char* name : { "red", "green", "blue" })
+/// Three triangles side by side, what stands behind the indices of each, and comments.
+std::string threeFaces(const std::string& properties, const std::array<std::string, 3>& ends,
+  const std::string& comments = "", const std::string& ofVertices = "", const std::string& vertexEnd = "")
+{
+  std::string text = "ply\nformat ascii 1.0\n" + comments +
+                     "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n" + ofVertices +
+                     "element face 3\nproperty list uchar int vertex_indices\n" + properties + "end_header\n";
+  for (const char* vertex : { "0 0 0", "0 1 0", "1 0 0", "1 1 0", "2 0 0" })
   {
-    text = changed(text, std::string("uchar ") + name, std::string("ushort ") + name);
+    text += vertex + vertexEnd + '\n';
   }
-  for (int i = 0; i < 4; ++i)
+  return text + "3 0 2 1 " + ends[0] + "\n3 1 2 3 " + ends[1] + "\n3 2 4 3 " + ends[2] + '\n';
+}
+
+const std::string twoPictures =
+  "comment TextureFile a.png\ncomment TextureFile b.png\ncomment TextureWrap clamp mirror\n";
+} // namespace
+
+TEST(Ply, EachFaceHasThePictureOfItsNumber)
+{
+  const auto model = readBytes("ply", threeFaces("property int texnumber\n", { "1", "0", "-1" }, twoPictures));
+  ASSERT_EQ(model->parts.size(), 3u);
+  const auto pictureOf = [&model](std::size_t part)
   {
-    text = changed(text, " 255 51 0\n", " 65535 13107 0\n");
+    const int texture = model->materials.at(std::size_t(model->parts[part].material)).texture;
+    return texture < 0 ? std::string() : model->textures.at(std::size_t(texture)).name;
+  };
+  EXPECT_EQ(pictureOf(0), "b.png");
+  EXPECT_EQ(pictureOf(1), "a.png");
+  EXPECT_EQ(pictureOf(2), "");
+  EXPECT_EQ(model->textures[0].wrap, (std::array{ dgtk::TextureWrap::Clamp, dgtk::TextureWrap::Mirror }));
+  EXPECT_EQ(model->textures[1].wrap, dgtk::TextureWraps());
+  EXPECT_THAT(model->warnings, testing::Each(HasSubstr("not found")));
+  const auto lost = readBytes("ply", threeFaces("property int texnumber\n", { "2", "0", "7" }, twoPictures));
+  EXPECT_THAT(lost->warnings, testing::Contains("2 face(s) name a picture that does not exist"));
+  EXPECT_EQ(lost->parts.size(), 2u);
+  const auto bare = readBytes("ply", threeFaces("property int texnumber\n", { "0", "0", "7" }));
+  EXPECT_THAT(bare->warnings, testing::IsEmpty());
+  const auto first = readBytes("ply", threeFaces("", { "", "", "" }, twoPictures));
+  EXPECT_EQ(first->textures.size(), 1u);
+  EXPECT_THAT(first->warnings, testing::Contains("faces have no texnumber: all have the first picture of 2"));
+}
+
+TEST(Ply, ColoursOfFacesAreOfTheirCorners)
+{
+  const std::string rgb = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const auto model = readBytes("ply", threeFaces(rgb, { "255 0 0", "0 255 0", "0 255 0" }));
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+  EXPECT_EQ(model->materials.at(0).diffuse, Eigen::Vector3d(1, 1, 1));
+  ASSERT_EQ(model->colors.size(), model->rest->positions.size());
+  for (std::size_t t = 0; t < 3; ++t)
+  {
+    for (const std::uint32_t vertex : model->triangles[t])
+    {
+      const int red = t == 0 ? 255 : 0;
+      EXPECT_EQ(
+        model->colors[vertex], (std::array<std::uint8_t, 4>{ std::uint8_t(red), std::uint8_t(255 - red), 0, 255 }));
+    }
   }
-  EXPECT_EQ(readBytes("ply", text)->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0));
+  const auto both = readBytes("ply", threeFaces(rgb, { "255 0 0", "0 255 0", "0 255 0" }, "", rgb, " 255 51 0"));
+  EXPECT_EQ(both->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0));
+  EXPECT_TRUE(both->colors.empty());
+  EXPECT_THAT(both->warnings, testing::ElementsAre("colours of faces are not drawn: vertices have their own"));
+}
+
+TEST(Ply, NumbersBeyondADoubleAreNotFinite)
+{
+  const auto model = readBytes("ply", changed(asciiQuad, "\n1 1 2 0", "\n1e400 1 2 0"));
+  EXPECT_TRUE(model->triangles.empty());
+  EXPECT_THAT(model->warnings, testing::Contains("1 surface left out: a coordinate that is not a finite number"));
+  expectQuad(*readBytes("ply", changed(asciiQuad, "\n0 0 2 0", "\n-1e-400 0 2 0")));
+}
+
+TEST(Ply, ColoursOfOtherTypes)
+{
+  const std::pair<std::string, std::string> table[] = { { "ushort ", " 65535 13107 0\n" },
+    { "uint ", " 4294967295 858993459 0\n" }, { "float ", " 1 0.2 0\n" }, { "double ", " 1 0.2 0\n" } };
+  for (const auto& [type, color] : table)
+  {
+    std::string text = asciiQuad;
+    for (const char* name : { "red", "green", "blue" })
+    {
+      text = changed(text, std::string("uchar ") + name, type + name);
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      text = changed(text, " 255 51 0\n", color);
+    }
+    EXPECT_EQ(readBytes("ply", text)->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0)) << type;
+  }
 }
 
 TEST(Ply, StripsBeginAnewWithTheirOwnTurn)
@@ -289,6 +372,15 @@ TEST(Ply, StripsBeginAnewWithTheirOwnTurn)
     const auto& p = model->rest->positions;
     EXPECT_EQ((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]), Eigen::Vector3d(0, 0, 1));
   }
+}
+
+TEST(Ply, VerticesThatAStripRepeatsOnlySteerIt)
+{
+  const auto model = readBytes("ply",
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
+    "5 0 1 2 2 3\n");
+  EXPECT_EQ(model->triangles.size(), 1u);
 }
 
 TEST(Ply, FacesThatNameNoVertexAreCounted)

@@ -2,6 +2,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkModelChecks.h"
+#include "dgtkPovContents.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
@@ -215,6 +216,26 @@ TEST(Pov, DeclaredMeshesOnlyAreDrawnOnce)
   ASSERT_EQ(model->triangles.size(), 2u);
   EXPECT_EQ(model->parts.size(), 2u);
   EXPECT_EQ(model->boundsMax.x(), 7);
+}
+
+TEST(Pov, TrianglesOfAMeshThatIsDrawnTwiceAreCountedOnceAsWritten)
+{
+  const std::string mesh = "#declare A = mesh { " + oneTriangle + oneTriangle + "}\nobject { A }\n";
+  const auto model = readBytes("pov", mesh + "object { A translate 5*x }");
+  EXPECT_EQ(model->triangles.size(), 4u);
+  EXPECT_EQ(model->declaredTriangles, 2u);
+  EXPECT_EQ(readBytes("pov", mesh)->declaredTriangles, 0u);
+}
+
+TEST(Pov, CornersBeyondAListThatFollowsTheVerticesHaveNone)
+{
+  const TemporaryFolder folder;
+  const std::string scene =
+    writeFiles(folder, { { "scene.pov", "mesh2 { vertex_vectors { 3, 0, x, y } normal_vectors { 2, <0,1,1>, <0,1,1> } "
+                                        "uv_vectors { 2, <.5,.5>, <1,0> } face_indices { 1, <0,1,2> } }" } });
+  const dgtk::PovContents contents = dgtk::readPovContents(scene);
+  EXPECT_EQ(contents.shape.at(0).mesh->faces.at(0).uv, (std::array{ 0, 1, -1 }));
+  EXPECT_EQ(contents.shape.at(0).mesh->faces.at(0).normal, (std::array{ 0, 1, -1 }));
 }
 
 TEST(Pov, DeclarationsSeeOnlyWhatStandsBeforeThem)

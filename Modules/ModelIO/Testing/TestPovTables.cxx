@@ -186,6 +186,7 @@ TEST(PovTables, Finishes)
     { "emission 0.5", 0.2, 1, 0.5, 0, 0 }, { "specular 0.5 roughness 0.1", 0.2, 1, 0, 0.5, 10 },
     { "specular 0.5 roughness 0", 0.2, 1, 0, 0.5, 128 }, { "phong 0.25 phong_size 30", 0.2, 1, 0, 0.25, 30 },
     { "phong 0.25 phong_size 30 specular 0.5 roughness 0.125", 0.2, 1, 0, 0.5, 8 },
+    { "phong 0.25", 0.2, 1, 0, 0.25, 40 }, { "specular 0.5", 0.2, 1, 0, 0.5, 20 },
     { "reflection { 0, 1 metallic } brilliance 2 ambient 0.25", 0.25, 1, 0, 0, 0 },
     { "Dull", 0.25, 0.5, 0.125, 0.75, 20 }, { "Dull ambient 1", 1, 0.5, 0.125, 0.75, 20 },
     { "diffuse Half", 0.2, 0.5, 0, 0, 0 } };
@@ -222,6 +223,23 @@ TEST(PovTables, TexturesOfManySources)
   }
   EXPECT_THAT(drawn("texture { Unknown }").warnings, ElementsAre(HasSubstr("texture 'Unknown' is not declared")));
   EXPECT_THAT(drawn("pigment { Unknown }").warnings, ElementsAre(HasSubstr("'Unknown' is not declared")));
+}
+
+TEST(PovTables, WhatReplacesThePictureOfADeclaredTexture)
+{
+  const std::string declared = "#declare B = texture { pigment { image_map { png \"a.png\" } } }\n";
+  const std::tuple<const char*, const char*, Eigen::Vector3d> table[] = { { "B", "a.png", { 1, 1, 1 } },
+    { "B pigment { rgb <1, 0, 0> }", "", { 1, 0, 0 } }, { "B pigment { B rgb <1, 0, 0> }", "", { 1, 0, 0 } },
+    { "B pigment { checker rgb <1, 0, 0> rgb <0, 0, 1> }", "", { 0.5, 0, 0.5 } },
+    { "B pigment { image_map { png \"b.png\" } }", "b.png", { 1, 1, 1 } },
+    { "B pigment { rgb <1, 0, 0> image_map { png \"b.png\" } }", "b.png", { 1, 1, 1 } },
+    { "B pigment { quick_color rgb 0 }", "a.png", { 1, 1, 1 } }, { "B finish { ambient 0 }", "a.png", { 1, 1, 1 } } };
+  for (const auto& [body, picture, color] : table)
+  {
+    const Drawn found = drawn(std::string("texture { ") + body + " }", declared);
+    EXPECT_EQ(found.texture, picture) << body;
+    expectNear(color, found.material.diffuse, body);
+  }
 }
 
 TEST(PovTables, PlacesOfPictures)

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
+
 using namespace dgtk::test;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -96,6 +98,19 @@ TEST(Stl, TextInAllItsShapes)
       Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0, 1), Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(0, 0, 1),
       Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(0, 1, 1)));
   EXPECT_EQ(model->sourceVertices, 7u);
+  std::string loud;
+  std::string mac;
+  for (const char c : cube())
+  {
+    loud += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    mac += c == '\n' ? '\r' : c;
+  }
+  for (const std::string& text : { loud, mac })
+  {
+    const auto other = readBytes("stl", text);
+    EXPECT_EQ(other->triangles.size(), 12u);
+    EXPECT_EQ(other->parts.at(0).name, text == mac ? "cube" : "CUBE");
+  }
 }
 
 TEST(Stl, Binary)
@@ -110,6 +125,7 @@ TEST(Stl, Binary)
     EXPECT_THAT(model->warnings, IsEmpty());
   }
   EXPECT_EQ(readBytes("stl", binary() + "more")->triangles.size(), 1u);
+  EXPECT_EQ(readBytes("stl", binary("solid by its header only") + "more")->triangles.size(), 1u);
   EXPECT_EQ(readBytes("stl", binary("", 0, 0))->triangles.size(), 0u);
 }
 
@@ -127,9 +143,12 @@ TEST(Stl, Refusals)
     refusal("stl", ""), "model.stl: the header at byte 0 run past the end of the file (expected 84 bytes, found 0)");
   EXPECT_EQ(refusal("stl", binary("", 0, 2)),
     "model.stl: triangles at byte 84 run past the end of the file (expected 100 bytes, found 50)");
+  EXPECT_EQ(refusal("stl", binary("solid by its header only", 0, 2)), refusal("stl", binary("", 0, 2)));
   EXPECT_EQ(refusal("stl", "solid a\nfacet\nouter loop\nvertex 0 0\n"),
     "model.stl:5: ends too soon (expected a number, found end of file)");
   EXPECT_EQ(refusal("stl", "solid a\nfacet\nouter loop\nvertex 0 0 z\n"),
+    "model.stl:4: is no STL file (expected a number, found 'z')");
+  EXPECT_EQ(refusal("stl", "solid a\rfacet normal 0 0 0\router loop\r\nvertex 0 0 z\r"),
     "model.stl:4: is no STL file (expected a number, found 'z')");
   EXPECT_EQ(refusal("stl", "solid a\nfacet\nwater loop\n"),
     "model.stl:3: is no STL file (expected vertex or endfacet, found 'water')");

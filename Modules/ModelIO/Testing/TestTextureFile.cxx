@@ -108,6 +108,15 @@ TEST(TextureFile, NamesAreResolvedInOrder)
   EXPECT_EQ(find("../textures/paint.jpg"), "textures/paint.jpg");
 }
 
+TEST(TextureFile, TheFolderThatIsWrittenComesFirst)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("skins"));
+  writeFile(folder.path("skins/paint.tga"), "x");
+  writeFile(folder.path("paint.jpg"), "x");
+  EXPECT_EQ(locateTexture(folder.path("car.ac"), "skins/Paint.PNG"), folder.path("skins/paint.tga"));
+}
+
 TEST(TextureFile, ShortNames)
 {
   const TemporaryFolder folder;
@@ -117,6 +126,7 @@ TEST(TextureFile, ShortNames)
   EXPECT_TRUE(find("BRICKW~1.TGA"));
   EXPECT_TRUE(find("brickwall_old.png")) << "equal in their first eight letters";
   EXPECT_FALSE(find("BRICK.TGA"));
+  EXPECT_FALSE(find("~1.TGA")) << "of nothing";
   writeFile(folder.path("PLANKS_O.png"), "x");
   EXPECT_TRUE(find("planks_of_oak.jpg")) << "the file has the short name";
   EXPECT_FALSE(find("BRICKWOR.TGA"));
@@ -316,6 +326,13 @@ TEST(TextureFile, PicturesOfLight)
   EXPECT_NEAR(day->rgb[0], 1, 1e-6);
   EXPECT_NEAR(day->rgb[1], 0.502886, 1e-5); // IEC 61966-2-1
   EXPECT_EQ(day->rgb[2], 0);
+  writeFile(folder.path("grey.pgm"), "P5 2 1 255\n\xff\xbc");
+  const auto grey = dgtk::decodeRadiance(folder.path("grey.pgm"), problem);
+  ASSERT_TRUE(grey) << problem;
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    EXPECT_NEAR(grey->rgb.at(i), i < 3 ? 1 : 0.502886, 1e-5) << i;
+  }
   writeFile(folder.path("torn.hdr"), text.substr(0, text.size() - 3));
   EXPECT_FALSE(dgtk::decodeRadiance(folder.path("torn.hdr"), problem));
   EXPECT_FALSE(problem.empty());
