@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkThreadPool.h"
 
+#include "dgtkError.h"
+
 #include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -42,6 +45,19 @@ struct ThreadPool::Impl
     this->wake.notify_all();
   }
 
+  void close()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(this->mutex);
+      this->closing = true;
+    }
+    this->wake.notify_all();
+    for (std::thread& worker : this->workers)
+    {
+      worker.join();
+    }
+  }
+
   void work()
   {
     for (;;)
@@ -63,24 +79,21 @@ struct ThreadPool::Impl
 ThreadPool::ThreadPool(int threads)
   : Self(new Impl)
 {
-  for (int i = 1; i < threads; ++i)
+  try
   {
-    this->Self->workers.emplace_back([this] { this->Self->work(); });
+    for (int i = 1; i < threads; ++i)
+    {
+      this->Self->workers.emplace_back([this] { this->Self->work(); });
+    }
+  }
+  catch (const std::system_error& error)
+  {
+    this->Self->close();
+    throw MachineError("a thread cannot be started: " + error.code().message());
   }
 }
 
-ThreadPool::~ThreadPool()
-{
-  {
-    const std::lock_guard<std::mutex> lock(this->Self->mutex);
-    this->Self->closing = true;
-  }
-  this->Self->wake.notify_all();
-  for (std::thread& worker : this->Self->workers)
-  {
-    worker.join();
-  }
-}
+ThreadPool::~ThreadPool() { this->Self->close(); }
 
 int ThreadPool::threads() const { return static_cast<int>(this->Self->workers.size()) + 1; }
 

@@ -17,7 +17,7 @@ namespace dgtk
 class DGTKCORE_EXPORT ThreadPool
 {
 public:
-  /// `threads` >= 1; threads - 1 workers are started.
+  /// `threads` >= 1; threads - 1 workers are started. Throws MachineError where one cannot be.
   explicit ThreadPool(int threads);
   /// Waits for every submitted job.
   ~ThreadPool();

@@ -114,9 +114,12 @@ RasterModels::~RasterModels()
     model->used = false;
   }
   this->drop();
-  for (const auto& entry : this->Textures)
+  for (const auto& textures : this->Textures)
   {
-    entry.second->ReleaseGraphicsResources(this->Window);
+    for (const auto& entry : textures)
+    {
+      entry.second->ReleaseGraphicsResources(this->Window);
+    }
   }
 }
 
@@ -154,6 +157,20 @@ void RasterModels::drop()
   this->Models.erase(std::remove_if(this->Models.begin(), this->Models.end(),
                        [](const std::unique_ptr<RasterModel>& made) { return !made->used; }),
     this->Models.end());
+  for (auto& textures : this->Textures)
+  {
+    for (auto entry = textures.begin(); entry != textures.end();)
+    {
+      if (!entry->first.expired())
+      {
+        ++entry;
+        continue;
+      }
+      entry->second->ReleaseGraphicsResources(this->Window);
+      entry = textures.erase(entry);
+    }
+  }
+  this->Maps.drop();
 }
 
 const RasterModel& RasterModels::of(const Instance& instance)
@@ -319,7 +336,7 @@ RasterChunk RasterModels::makeChunk(const RasterModel& made, const Part& part, s
 
 vtkSmartPointer<vtkOpenGLTexture> RasterModels::textureOf(const std::shared_ptr<const Image>& image, bool cutOut)
 {
-  vtkSmartPointer<vtkOpenGLTexture>& texture = this->Textures[{ image, cutOut }];
+  vtkSmartPointer<vtkOpenGLTexture>& texture = this->Textures[cutOut][image];
   if (!texture)
   {
     texture = makeTexture(*image, cutOut);

@@ -100,7 +100,7 @@ private:
   vtkOpenGLRenderWindow* Window;
   RasterFrame& Frame;
   std::vector<std::unique_ptr<RasterModel>> Models;
-  std::map<std::pair<std::shared_ptr<const Image>, bool>, vtkSmartPointer<vtkOpenGLTexture>> Textures;
+  std::map<std::weak_ptr<const Image>, vtkSmartPointer<vtkOpenGLTexture>, std::owner_less<>> Textures[2]; // cut out
   MaterialMaps Maps;
   std::shared_ptr<const Image> White; // a picture of one texel
   bool Numbered = true;

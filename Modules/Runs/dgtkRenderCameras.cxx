@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderCameras.h"
 
+#include "dgtkError.h"
 #include "dgtkNumberRow.h"
 #include "dgtkScenePlaces.h"
+#include "dgtkStage.h"
 
 #include <QCheckBox>
 #include <QGridLayout>
@@ -288,25 +290,22 @@ void RenderCameras::showResolution()
     this->Resolution->setText(tr("The scene has no camera. Add one with Tools > Add camera."));
     return;
   }
-  SceneDescription alone;
-  alone.cameras.push_back(*camera);
-  CameraDescription& sized = alone.cameras.front();
-  if (!this->OwnSize->isChecked() && !sized.K)
+  const QSize size = this->commonSize().value_or(QSize(0, 0)); // 0: its own
+  View view;
+  try
   {
-    sized.width = this->Size[0]->value();
-    sized.height = this->Size[1]->value();
+    view = cameraView(*camera, this->State.frame(), size.width(), size.height(), scene.folder);
   }
-  const CameraPlace place = placeScene(alone, ModelLibrary(), this->State.frame()).cameras.front();
-  if (!place.valid)
+  catch (const Error&)
   {
     this->Resolution->setText(
       tr("%1 has no pose at this frame: its eye is at its look-at point.").arg(toText(camera->name)));
     return;
   }
-  const WorldResolution resolution = worldResolution(place.view);
+  const WorldResolution resolution = worldResolution(view);
   const QString units = (scene.units.empty() ? tr("units") : toText(scene.units)).toHtmlEscaped();
   QString rows;
-  const std::optional<LinearProjection> linear = place.view.model->linear();
+  const std::optional<LinearProjection> linear = view.model->linear();
   if (linear && !linear->perspective)
   {
     rows = resolutionRow(tr("at every depth"), resolution.farPlane, units);
@@ -319,14 +318,14 @@ void RenderCameras::showResolution()
       const double depth = (camera->lookAt.at(frame) - camera->eye.at(frame)).norm();
       rows = resolutionRow(
         tr("at the look-at point, %1 %2 away").arg(QString::number(depth, 'g', digitsOfResolution), units),
-        resolution.farPlane * (depth / place.view.far), units);
+        resolution.farPlane * (depth / view.far), units);
     }
     rows += resolutionRow(tr("at the far plane"), resolution.farPlane, units);
     rows += resolutionRow(tr("between near and far plane (the thesis's number)"), resolution.thesis, units);
   }
   this->Resolution->setText(tr("%1: %2 x %3 pixels. A pixel is, in x and y:")
-                              .arg(toText(camera->name).toHtmlEscaped(), QString::number(place.view.model->width()),
-                                QString::number(place.view.model->height())) +
+                              .arg(toText(camera->name).toHtmlEscaped(), QString::number(view.model->width()),
+                                QString::number(view.model->height())) +
                             "<table cellspacing='0' cellpadding='3'>" + rows + "</table>");
 }
 

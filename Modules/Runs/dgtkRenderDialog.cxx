@@ -3,6 +3,7 @@
 
 #include "dgtkFolderContents.h"
 #include "dgtkGenerator.h"
+#include "dgtkOption.h"
 #include "dgtkRenderCameras.h"
 #include "dgtkRenderOptions.h"
 #include "dgtkUsualFolder.h"
@@ -26,6 +27,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace dgtk
 {
@@ -146,15 +149,15 @@ QCheckBox* RenderDialog::layerBox(const QString& layer) const
 void RenderDialog::offerSelection()
 {
   const SceneDescription& scene = this->State.scene();
-  QStringList names;
+  std::vector<std::string> names;
   for (const SceneItem& item : this->State.selection())
   {
     if (item.kind == SceneItem::Kind::Object && item.index < scene.objects.size())
     {
-      names << toText(scene.objects[item.index].name);
+      names.push_back(scene.objects[item.index].name);
     }
   }
-  this->Options->offer("matte", names.join(','));
+  this->Options->offer("matte", toText(joinedNames(names)));
 }
 
 QStringList RenderDialog::arguments(const QString& scene) const

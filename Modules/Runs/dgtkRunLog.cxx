@@ -149,7 +149,7 @@ QStringList RunLog::read()
 
 void RunLog::take(const QString& line, QStringList& messages)
 {
-  static const QRegularExpression state(QStringLiteral("^(\\d+)/(\\d+) pictures, .*, \\S+ left$"));
+  static const QRegularExpression state(QStringLiteral("^(\\d+)/(\\d+) \\w+, .*, \\S+ left$"));
   if (++this->Lines <= headLines)
   {
     this->Lines == 1 ? void(this->Request = parseHead(line)) : void(this->Process = line.toInt());

@@ -15,6 +15,29 @@ void sortUnique(std::vector<int>& frames)
   std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
 }
+
+/// First and last key frame, 0 without; asked of every picture, so that only the ends of tracks are looked at.
+std::pair<int, int> spanOf(const SceneDescription& scene)
+{
+  std::vector<int> ends;
+  if (!scene.extraKeyFrames.empty())
+  {
+    const auto [least, most] = std::minmax_element(scene.extraKeyFrames.begin(), scene.extraKeyFrames.end());
+    ends = { *least, *most };
+  }
+  forEachTrack(scene,
+    [&ends](const auto& track, bool)
+    {
+      if (track.animated())
+      {
+        const int first = track.keys.front().frame;
+        const int last = track.keys.back().frame;
+        ends = ends.empty() ? std::vector<int>{ first, last }
+                            : std::vector<int>{ std::min(ends[0], first), std::max(ends[1], last) };
+      }
+    });
+  return ends.empty() ? std::pair(0, 0) : std::pair(ends[0], ends[1]);
+}
 } // namespace
 
 std::vector<int> SceneDescription::keyFrames() const
@@ -37,17 +60,9 @@ std::vector<int> SceneDescription::keyFrames() const
   return frames;
 }
 
-int SceneDescription::firstFrame() const
-{
-  const std::vector<int> frames = this->keyFrames();
-  return frames.empty() ? 0 : frames.front();
-}
+int SceneDescription::firstFrame() const { return spanOf(*this).first; }
 
-int SceneDescription::lastFrame() const
-{
-  const std::vector<int> frames = this->keyFrames();
-  return frames.empty() ? 0 : frames.back();
-}
+int SceneDescription::lastFrame() const { return spanOf(*this).second; }
 
 int SceneDescription::classIdOf(const std::string& className) const
 {

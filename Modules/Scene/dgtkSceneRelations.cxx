@@ -11,6 +11,7 @@
 #include <numeric>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace dgtk::scenefile
 {
@@ -26,6 +27,10 @@ public:
     : Scene(scene)
     , Locate(locate)
   {
+    for (const ClassDescription& one : scene.classes)
+    {
+      this->Classes.try_emplace(one.name, &one);
+    }
   }
 
   void checkAll() const
@@ -145,7 +150,7 @@ private:
     for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
     {
       const ObjectDescription& object = this->Scene.objects[i];
-      if ((isEver(object.visible) || !object.className.empty()) && this->Scene.classIdOf(object.className) == 0)
+      if ((isEver(object.visible) || !object.className.empty()) && !this->isNumbered(object.className))
       {
         const std::string& file = this->Scene.classFile;
         this->fail(Kind::Object, i, "class", "has no number in " + (file.empty() ? "\"classes\"" : file),
@@ -170,21 +175,24 @@ private:
   void checkKeypoints(std::size_t i) const
   {
     const ObjectDescription& object = this->Scene.objects[i];
-    std::vector<std::string> known;
-    for (const ClassDescription& one : this->Scene.classes)
+    if (object.keypoints.empty())
     {
-      known = one.name == object.className ? one.keypoints : known;
+      return;
     }
-    std::set<std::string> seen;
+    const auto own = this->Classes.find(object.className);
+    const std::vector<std::string> names =
+      own == this->Classes.end() ? std::vector<std::string>() : own->second->keypoints;
+    const std::unordered_set<std::string> known(names.begin(), names.end());
+    std::unordered_set<std::string> seen;
     for (const KeypointDescription& point : object.keypoints)
     {
       if (!seen.insert(point.name).second)
       {
         this->fail(Kind::Object, i, "keypoints", "names " + quoted(point.name) + " twice");
       }
-      if (!known.empty() && std::find(known.begin(), known.end(), point.name) == known.end())
+      if (!known.empty() && known.count(point.name) == 0)
       {
-        const std::string near = nearest(point.name, known);
+        const std::string near = nearest(point.name, names);
         this->fail(Kind::Object, i, "keypoints", "names what is none of class " + quoted(object.className),
           near.empty() ? "one of its keypoints" : "perhaps " + quoted(near), quoted(point.name));
       }
@@ -362,8 +370,15 @@ private:
     }
   }
 
+  bool isNumbered(const std::string& className) const
+  {
+    const auto found = this->Classes.find(className);
+    return found != this->Classes.end() && found->second->id != 0;
+  }
+
   const SceneDescription& Scene;
   const Locator& Locate;
+  std::unordered_map<std::string, const ClassDescription*> Classes; ///< by name
 };
 } // namespace
 

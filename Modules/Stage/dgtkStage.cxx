@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkInstantSource.h"
+#include "dgtkKeptViews.h"
 #include "dgtkKeypoints.h"
 #include "dgtkMaterialNumbers.h"
 #include "dgtkModelClock.h"
@@ -18,7 +19,8 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <utility>
+#include <set>
+#include <unordered_map>
 
 namespace dgtk
 {
@@ -43,10 +45,10 @@ struct Stage::Impl
   {
     this->take(models);
     this->Files = models.files();
+    std::set<std::shared_ptr<const Model>> known;
     for (const ObjectLook& look : this->Looks)
     {
-      if (look.model != nullptr &&
-          std::find(this->Models.begin(), this->Models.end(), look.model) == this->Models.end())
+      if (look.model != nullptr && known.insert(look.model).second)
       {
         this->Models.push_back(look.model);
       }
@@ -64,6 +66,7 @@ struct Stage::Impl
 
   SceneDescription Scene;
   std::vector<ObjectLook> Looks; ///< one an object
+  std::unordered_map<std::string, std::uint32_t> ClassIds;
   std::shared_ptr<const EnvironmentState> Environment;
   std::vector<std::shared_ptr<const Model>> Models; ///< in the order of their first use
   std::vector<std::string> Files;
@@ -74,10 +77,15 @@ struct Stage::Impl
   // The latest states: the cameras of a frame, and what looks a frame ahead and back, ask for the same ones.
   std::mutex Mutex;
   std::deque<std::shared_ptr<const SceneState>> Latest;
+  KeptViews Views; // without their instants, which keep the stage
 };
 
 void Stage::Impl::take(const ModelSource& models)
 {
+  for (const ClassDescription& one : this->Scene.classes)
+  {
+    this->ClassIds.try_emplace(one.name, std::uint32_t(one.id));
+  }
   for (const ObjectDescription& object : this->Scene.objects)
   {
     this->Looks.push_back(models.lookOf(this->Scene, object));
@@ -189,7 +197,7 @@ Instance Stage::Impl::instance(std::size_t index, const Affine3& world_from_obje
   Instance instance;
   instance.name = object.name;
   instance.className = object.className;
-  instance.classId = std::uint32_t(this->Scene.classIdOf(object.className));
+  instance.classId = this->ClassIds.count(object.className) != 0 ? this->ClassIds.at(object.className) : 0;
   instance.model = look.model;
   instance.geometry = geometryAt(this->Scene, object, *look.model, frame, *this->Geometries);
   instance.materials = this->Materials.at(object, look.materials, frame);
@@ -392,16 +400,20 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
     throw UsageError("frame is not a finite number");
   }
   const CameraDescription& camera = scene.cameras[index];
-  try
+  const auto make = [&]
   {
-    poseAt(camera, frame);
-  }
-  catch (const UsageError& error)
-  {
-    throw InputError(scene.title(), camera.line,
-      "camera " + quoted(camera.name) + " at frame " + shortest(frame) + ": " + error.what());
-  }
-  View view = cameraView(camera, frame, width, height, scene.folder);
+    try
+    {
+      poseAt(camera, frame);
+    }
+    catch (const UsageError& error)
+    {
+      throw InputError(scene.title(), camera.line,
+        "camera " + quoted(camera.name) + " at frame " + shortest(frame) + ": " + error.what());
+    }
+    return cameraView(camera, frame, width, height, scene.folder);
+  };
+  View view = this->Self->Views.at(index, scene.cameras.size(), { frame, width, height }, make);
   if (view.model->rolls())
   {
     view.instants = std::make_shared<Instants>(this->shared_from_this(), index, frame);
@@ -431,7 +443,7 @@ std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, 
     if (blurs)
     {
       const Eigen::Vector2d point = points[std::size_t(i)] * (camera.lens.aperture / 2);
-      one.view = throughLens(one.view, point, camera.lens.focus.at(one.frame));
+      one.view = throughLens(one.view, point, boundedAt(camera.lens.focus, one.frame));
       if (one.view.instants)
       {
         one.view.instants = std::make_shared<Instants>(this->shared_from_this(), index, one.frame, point);

@@ -8,7 +8,8 @@ import re
 import shutil
 import subprocess
 
-from harness import DGTK, SCENES, Case, digests, load_json, main
+from harness import DGTK, SCENES, SOURCE, Case, digests, load_json, main
+from pictures import read_png
 
 
 class Engines(Case):
@@ -58,6 +59,22 @@ class Engines(Case):
                                           "--cameras", ",".join(name.replace(",", "\\,") for name in straight)))
                 shutil.rmtree(self.path("d"))
 
+    def test_shadows_are_the_same_however_opengl_counts_depths(self):
+        """From 0 to 1, or from -1 to 1 where it has no GL_ARB_clip_control."""
+        models = os.path.join(SOURCE, "Data", "Models")
+        scene = {"objects": [{"name": name, "model": os.path.join(models, f"{name}.ac")} for name in ("ground", "crate")],
+                 "lights": [{"name": "sun", "kind": "directional", "position": [-6, 5, 2], "shadows": True}],
+                 "cameras": [{"name": "c", "eye": [3, 3, 4], "lookAt": [0.5, 0, 0], "near": 0.1, "far": 50}]}
+        command = ["render", self.write("s.json", json.dumps(scene)), "--quiet", "--layers", "color", "--size", "160x120",
+                   "--renderer", "vtk"]
+        pictures = {}
+        for name, without in (("one", ""), ("both", "-GL_ARB_clip_control")):
+            self.dgtk(*command, "-o", self.path(name), environment={"MESA_EXTENSION_OVERRIDE": without})
+            pictures[name] = read_png(self.path(name, "c", "color", "000000.png")).astype(int)
+        self.assertGreater((pictures["one"].max(axis=2) < 5).sum(), 200)
+        self.assertGreater((pictures["one"].max(axis=2) > 50).sum(), 5000)
+        self.assertLess((abs(pictures["one"] - pictures["both"]) > 4).any(axis=2).sum(), 20)
+
 
 class Glx(Case):
     @staticmethod
@@ -66,7 +83,8 @@ class Glx(Case):
 
     def test_the_first_picture_of_a_process_is_as_the_others(self):
         """Under GLX, whose state begins otherwise; also after --resume, where another picture is the first."""
-        command = ["render", os.path.join(SCENES, "demo.json"), "--layers", "color", "--size", "96x72", "--frames", "0:1"]
+        command = ["render", os.path.join(SCENES, "demo.json"), "--layers", "color", "--size", "96x72", "--frames", "0:1",
+                   "--renderer", "vtk"]
 
         def glx(name, *options):
             done = subprocess.run(["xvfb-run", "-a", "-n", "470", DGTK, *command, "-o", self.path(name), "--gl", "glx", *options],

@@ -209,7 +209,7 @@ class Layers(Case):
     def test_one_pass_and_many_passes_give_the_same(self):
         """OpenGL without storage buffers draws a rank at a time."""
         options = ("render", os.path.join(SCENES, "demo.json"), "--quiet", "--cameras", "left", "--frames", "1", "--size", "160x120",
-                   "--layers", "ldi")
+                   "--layers", "ldi", "--renderer", "vtk")
         self.dgtk(*options, "-o", self.path("one"))
         self.dgtk(*options, "-o", self.path("many"),
                   environment={"MESA_EXTENSION_OVERRIDE": "-GL_ARB_shader_storage_buffer_object"})
@@ -222,6 +222,17 @@ class Layers(Case):
         depth = numpy.load(os.path.join(folder, "left", "depth", "000000.npy"))
         seen, first = firsts(counts)
         self.assertTrue((records["depth"][first] == depth[seen]).all())
+
+    def test_first_surface_has_its_own_colour_where_a_lens_blurs(self):
+        folder = self.render("lens_and_shutter.json", "l", "--cameras", "lens", "--frames", "0", "--size", "80x60",
+                             layers="color,color_sharp,ldi")
+        counts, records = read_ldi(os.path.join(folder, "lens", "ldi", "000000.ldi"))
+        blurred, sharp = (read_png(os.path.join(folder, "lens", layer, "000000.png")) for layer in ("color", "color_sharp"))
+        seen, first = firsts(counts)
+        opaque = records["rgba"][first, 3] == 255
+        self.assertGreater(opaque.sum(), 3000)
+        self.assertTrue((records["rgba"][first, :3] == sharp[seen])[opaque].all())
+        self.assertGreater((blurred != sharp).any(axis=-1).mean(), 0.5)
 
     def test_first_surface_is_the_same_whichever_engine_decides(self):
         for engine in ("ray", "raster"):
@@ -341,10 +352,76 @@ class Warp(Case):
                            (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
                                         "t": [0, 0, 0], "width": 0, "height": 4}), "width is out of range")):
             self.refused("warp", self.ldi, "--to", self.write("c.json", text), *out, status=3, says=["c.json", says])
+        mask, here = self.path("m.png"), os.path.relpath(self.path("m.png"))
+        before = os.path.getsize(self.ldi)
+        for picture, holes in ((mask, here), (self.ldi, mask), (mask, self.ldi)):
+            self.refused("warp", self.ldi, "--to", "left", "-o", picture, "--mask", holes, status=2, says="names of their own")
+        self.assertEqual((os.path.getsize(self.ldi), os.path.exists(mask)), (before, False))
         with open(self.ldi, "rb+") as file:
             file.truncate(os.path.getsize(self.ldi) - 1)
         self.refused("warp", self.ldi, "--to", "left", *out, status=3, says="000000.ldi")
         self.assertFalse(os.path.exists(self.path("o.png")))
+
+
+class WarpToOthers(Case):
+    """A wall before cameras of several kinds, the first of which moves."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        common = {"width": 32, "height": 24, "near": 1, "far": 50, "eye": [0, 0, 5], "lookAt": [0, 0, 0]}
+        cameras = [{**common, "name": "moving", "eye": {"keys": [[0, [1, 0, 5]], [1, [0, 0, 5]]]},
+                    "lookAt": {"keys": [[0, [1, 0, 0]], [1, [0, 0, 0]]]}},
+                   {**common, "name": "bent", "distortion": [0.1, 0, 0, 0]}, {**common, "name": "flat", "model": "orthographic", "viewHeight": 4},
+                   {**common, "name": "round", "model": "fisheye", "fovY": 120}, {**common, "name": "panorama", "model": "equirectangular"},
+                   {**common, "name": "rolling", "rollingShutter": {"duration": 0.5, "direction": "down"}}]
+        scene = self.write("s.json", json.dumps({"objects": [{"model": "wall.obj"}], "cameras": cameras}))
+        options = ("--quiet", "--visibility", "ray", "--layers")
+        self.dgtk("render", scene, "-o", self.path("d"), *options, "ldi", "--cameras", "moving")
+        self.dgtk("render", scene, "-o", self.path("all"), *options, "depth", "--frames", "1")
+        self.ldi = self.path("d", "moving", "ldi", "000001.ldi")
+
+    def entries(self, folder):
+        with open(self.path(folder, "cameras.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def warp(self, to, name="o.png"):
+        self.dgtk("warp", self.ldi, "--to", to, "-o", self.path(name))
+        return read_png(self.path(name))
+
+    def test_a_camera_without_a_frame_is_at_that_of_the_image(self):
+        first, second = self.warp("moving@0"), self.warp("moving@1")
+        self.assertTrue((first != second).any())
+        self.assertTrue((self.warp("moving") == second).all())
+
+    def test_an_image_of_another_size_than_its_camera(self):
+        whole = self.entries("d")
+        for side in ("width", "height"):
+            other = {"cameras": [{**entry, side: entry[side] - 1} for entry in whole["cameras"]]}
+            self.write("d/cameras.json", json.dumps(other))
+            self.refused("warp", self.ldi, "--to", "moving", "-o", self.path("o.png"), status=3, says="has another size than its camera")
+
+    def test_an_entry_of_cameras_json_is_a_camera_file(self):
+        entries = {entry["name"]: entry for entry in self.entries("all")["cameras"]}
+        expected = self.warp("moving")
+        for far in (50, None):
+            self.assertTrue((self.warp(self.write("c.json", json.dumps({**entries["moving"], "far": far}))) == expected).all())
+        for name in ("bent", "flat", "round", "panorama"):
+            self.assertTrue(self.warp(self.write("c.json", json.dumps(entries[name]))).any(), name)
+
+        def refused(entry, status, *says):
+            self.refused("warp", self.ldi, "--to", self.write("c.json", json.dumps(entry)), "-o", self.path("no.png"), status=status, says=says)
+        refused(entries["rolling"], 2, "rolling shutter")
+        moving = entries["moving"]
+        for key, value in (("distorsion", [0.1, 0, 0, 0]), ("fovY", 60), ("viewHeight", 4)):
+            refused({**moving, key: value}, 3, f"c.json:1: {key} is an unknown key (expected one of name, frame, ")
+        refused({**entries["flat"], "distortion": [0.1, 0, 0, 0]}, 3, "distortion is an unknown key")
+        refused({**entries["panorama"], "K": moving["K"]}, 3, "K is an unknown key")
+        refused({**moving, "near": -5, "far": -7}, 3, "near is out of range (expected a number above 0, found -5)")
+        refused({**moving, "near": 0}, 3, "near is out of range")
+        for far in (1, -7):
+            refused({**moving, "far": far}, 3, f"far is not beyond near (expected more than 1, found {far})")
+        self.assertFalse(os.path.exists(self.path("no.png")))
 
 
 if __name__ == "__main__":

@@ -63,6 +63,16 @@ class Names(Case):
         self.assertIn(b"mod\\xE8le.obj: cannot be read", told)
         self.assertNotIn(b"\xe8", told)
 
+    def test_mattes_of_names_like_numbers(self):
+        """A folder is named by an id where the name cannot be one, and no name is as those are."""
+        self.put(b"m.obj", MESH)
+        names = ("#2", "a/b", "#c")
+        scene = self.put(b"s.json", json.dumps({"objects": [{"name": name, "model": "m.obj"} for name in names], "cameras": [CAMERA]}))
+        out = os.path.join(self.home, b"mattes")
+        self.run_dgtk("render", scene, "-o", out, "--quiet", "--layers", "matting,objects", "--matte", ",".join(names))
+        self.assertEqual(sorted(os.listdir(os.path.join(out, b"c"))), [b"matting_#1", b"matting_#2", b"matting_#3", b"objects"])
+        self.run_dgtk("verify", out)
+
     def test_an_old_scene_file(self):
         self.put(b"mod\xe8le.ac", "AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids 1\n"
                  "OBJECT poly\nnumvert 3\n-1 -1 0\n1 -1 0\n1 1 0\nnumsurf 1\nSURF 0x00\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n")

@@ -182,6 +182,26 @@ TEST(Lens, RaysThroughCentresAreThoseBesideThem)
   }
 }
 
+// Lenses of one distortion that differ in a number of K each.
+TEST(Lens, RaysThroughCentresAreThoseOfTheOwnMatrix)
+{
+  std::vector<std::shared_ptr<const CameraModel>> lenses;
+  for (const auto& [row, column] : { std::pair(2, 2), { 0, 0 }, { 0, 1 }, { 0, 2 }, { 1, 1 }, { 1, 2 } })
+  {
+    Eigen::Matrix3d K;
+    K << 100, 0, 100, 0, 100, 50, 0, 0, 1;
+    K(row, column) += row < 2 ? 20 : 0;
+    lenses.push_back(makeCamera("pinhole", { 200, 100, K, { { "distortion", { 0.05, 0.01, 0.002, -0.001 } } } }));
+  }
+  const Eigen::Vector2d centre(150.5, 80.5);
+  for (const auto& camera : lenses)
+  {
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(camera->project(camera->rayThrough(centre).direction, pixel));
+    EXPECT_LE((pixel - centre).norm(), 1e-9) << "lens " << &camera - lenses.data();
+  }
+}
+
 TEST(Lens, FieldOfViewIsThatWithoutTheDistortion)
 {
   const auto topAngle = [](const CameraModel& camera) {
@@ -195,6 +215,14 @@ TEST(Lens, FieldOfViewIsThatWithoutTheDistortion)
   const Numbers some{ { "fovY", { 60 } }, { "distortion", { -0.1, 0, 0, 0 } } };
   EXPECT_EQ(*makeCamera("pinhole", { 200, 100, std::nullopt, some })->parameters().K,
     makeCamera("pinhole", { 200, 100, std::nullopt, none })->linear()->K);
+}
+
+// As of gluPerspective(); of an equidistant lens the angle is the distance.
+TEST(Lens, AspectIsThatOfTheView)
+{
+  const auto camera = byFieldOfView("fisheye", { { "aspect", { 3 } } }, 30);
+  EXPECT_NEAR(std::acos(camera->rayThrough({ 100, 0 }).direction.z()), 15 * pi / 180, 1e-9);
+  EXPECT_NEAR(std::acos(camera->rayThrough({ 0, 50 }).direction.z()), 45 * pi / 180, 1e-9);
 }
 
 TEST(Lens, APinholeWithoutDistortionIsLinear)

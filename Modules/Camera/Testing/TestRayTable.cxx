@@ -140,6 +140,27 @@ TEST_F(RayTables, HaveOriginsAndTimes)
   EXPECT_LT((camera->rayThrough({ 1.5, 2.5 }).direction - Eigen::Vector3d(-0.5, 1, 2).normalized()).norm(), 1e-15);
 }
 
+TEST_F(RayTables, HaveNoTimesOfRaysThatAreNotThere)
+{
+  for (const double time : { notANumber, 1e6 })
+  {
+    std::vector<double> numbers;
+    for (int i = 0; i < 12; ++i)
+    {
+      numbers.insert(numbers.end(), { i % 4 - 1.5, double(i / 4) - 1, 2.0, 0.5 * double(i / 4) - 0.25 });
+    }
+    numbers[2] = notANumber; // the first pixel
+    numbers[3] = time;
+    const std::string name = time > 0 ? "late.npy" : "never.npy";
+    test::RandomCameras::writeNpy(this->Folder.path(name), 3, 4, 4, numbers);
+    const auto camera = this->camera(4, 3, name);
+    EXPECT_FALSE(camera->rayThrough({ 0.5, 0.5 }).exists());
+    EXPECT_EQ(camera->times().first, -0.25);
+    EXPECT_EQ(camera->times().last, 0.75);
+    EXPECT_EQ(camera->timeAt({ 2.5, 2.5 }), 0.75);
+  }
+}
+
 TEST_F(RayTables, AreReadAnewWhenTheyHaveChanged)
 {
   this->write(3, 4, 3, this->plane());

@@ -116,6 +116,14 @@ TEST(System, ProgramsOnThePath)
   fs::permissions(folder.path("a/tool"), fs::perms::owner_all);
   EXPECT_EQ(programOnPath("tool"), folder.path("a/tool"));
   EXPECT_TRUE(isProgram(folder.path("a/tool")));
+  const fs::path here = fs::current_path();
+  fs::current_path(folder.path("a"));
+  for (const char* emptyOne : { ":/nowhere", "/nowhere::/nowhere", "/nowhere:" }) // the working folder
+  {
+    ::setenv("PATH", emptyOne, 1);
+    EXPECT_EQ(fs::path(programOnPath("tool")).lexically_normal(), folder.path("a/tool")) << emptyOne;
+  }
+  fs::current_path(here);
   ::setenv("PATH", before.c_str(), 1);
 }
 

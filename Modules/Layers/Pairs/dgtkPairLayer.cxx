@@ -311,7 +311,8 @@ std::optional<Partner> rectifiedPartner(const WorkPlan& plan, const Stage& stage
   const View own = view(camera);
   double nearest = std::numeric_limits<double>::infinity();
   std::optional<Partner> partner;
-  for (std::size_t c = 0; c < stage.cameraNames().size(); ++c)
+  const std::size_t cameras = stage.description().cameras.size();
+  for (std::size_t c = 0; c < cameras; ++c)
   {
     const double baseline = c == camera ? 0 : rectifiedBaseline(own, view(c));
     if (baseline != 0 && std::abs(baseline) < nearest * (1 - 1e-9))

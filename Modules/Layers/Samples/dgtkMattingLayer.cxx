@@ -47,11 +47,11 @@ LayerSpec pictureSpec(int picture)
   return spec;
 }
 
-/// Folder of an object's files: its name where that can be one, otherwise its id.
+/// Folder of an object's files: its name where that can be one, and is not as those of ids are, otherwise its id.
 std::string folderOf(const std::string& name, std::uint32_t id)
 {
-  const bool usable =
-    !name.empty() && name.size() <= 128 && name.find_first_of(std::string("/\\\0", 3)) == std::string::npos;
+  const bool usable = !name.empty() && name[0] != '#' && name.size() <= 128 &&
+                      name.find_first_of(std::string("/\\\0", 3)) == std::string::npos;
   return "matting_" + (usable ? name : '#' + std::to_string(id));
 }
 

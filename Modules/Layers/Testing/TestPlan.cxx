@@ -136,6 +136,33 @@ TEST(Plan, PairsThatAreNone)
   EXPECT_THAT(refusal(later, *stage), HasSubstr("leads from every frame"));
 }
 
+/// Left and right from frame 2 on are what right and left were at frame 1.
+TEST(Plan, CamerasThatChangeSidesAreNoPairFromOneFrameToTheOther)
+{
+  const auto camera = [](const std::string& name, int first, int later)
+  {
+    return R"({"name": ")" + name +
+           R"(", "width": 8, "height": 6, "orientation": [1, 0, 0, 0], "position": {"keys": [[1, [)" +
+           std::to_string(first) + ", 0, 0]], [2, [" + std::to_string(later) + ", 0, 0]]]}}";
+  };
+  const auto stage = stageOf({ camera("a", 0, 1), camera("b", 1, 0) });
+  const WorkPlan plan = makeWorkPlan(requestOf({ "disparity", "disparity_forward", "disparity_backward" }), *stage);
+  std::map<std::string, std::vector<int>> frames;
+  for (const Job& job : plan.jobs)
+  {
+    for (const LayerOutput& output : outputsOf(plan, *stage, job))
+    {
+      if (job.camera == 0 && output.layer.find("class") == std::string::npos)
+      {
+        frames[output.layer].push_back(job.frame);
+      }
+    }
+  }
+  EXPECT_THAT(frames["disparity"], ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(frames["disparity_forward"], ElementsAre(2, 3));
+  EXPECT_THAT(frames["disparity_backward"], ElementsAre(3, 4));
+}
+
 TEST(Plan, NeighbouringFramesThatTheRunLeavesOutDeserveAWord)
 {
   const auto stage = stageOf({ cameraText("a", 0), cameraText("b", 1) });

@@ -35,6 +35,10 @@ bool same(const FrameSourceOptions& a, const FrameSourceOptions& b)
 void KeptSource::use(const FrameSourceOptions& options, const std::shared_ptr<const Stage>& stage, const Draw& draw)
 {
   this->leaveInherited();
+  if (!this->Pool)
+  {
+    this->Pool = std::make_unique<ThreadPool>(machineThreads());
+  }
   if (!same(options, this->Options))
   {
     this->drop();
@@ -78,7 +82,6 @@ void KeptSource::leaveInherited()
     static_cast<void>(this->Pool.release());
     this->Scene = nullptr;
     this->Process = ::getpid();
-    this->Pool = std::make_unique<ThreadPool>(machineThreads());
   }
 }
 

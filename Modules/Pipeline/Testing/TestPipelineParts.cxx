@@ -111,6 +111,28 @@ TEST(Generator, PicturesOfABegunSceneOfManyAreKept)
   EXPECT_EQ(done.files, 80u + 2 * 4 + 1) << "pictures, four documents of each dataset and the list of datasets";
 }
 
+TEST(Generator, ProgressOfASharePutsWhatIsKeptApart)
+{
+  const test::TemporaryFolder folder;
+  GeneratorRequest request = twoScenes(folder, R"("keyFrames": [0, 1], )");
+  GeneratorProgress last;
+  GeneratorCallbacks callbacks;
+  callbacks.progress = [&](const GeneratorProgress& state) { last = state; };
+  for (const bool scenes : { true, false })
+  {
+    request.scene = folder.path(scenes ? "scenes" : "scenes/a.json");
+    request.folder = folder.path(scenes ? "many" : "one");
+    for (const std::size_t kept : { 0, 1 })
+    {
+      std::filesystem::remove_all(request.folder + (scenes ? "/b" : "/.dgtk-parts/000001"));
+      generateShard(request, { 0, 1 }, callbacks);
+      EXPECT_EQ(last.done, 2u);
+      EXPECT_EQ(last.total, 2u);
+      EXPECT_EQ(last.kept, kept);
+    }
+  }
+}
+
 TEST(SerialQueue, KeepsTheOrderOfEachQueueOnAnyNumberOfThreads)
 {
   for (const int threads : { 1, 2, 4 })

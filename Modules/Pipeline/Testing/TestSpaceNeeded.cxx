@@ -74,6 +74,8 @@ TEST(SpaceNeeded, IsRefusedOnlyWhenItCannotFit)
   EXPECT_THROW(checkSpace("d", needed, { 999, true }), MachineError);
   EXPECT_EQ(checkSpace("d", needed, { 999, false }), "d: the dataset needs some 5 GB, and there are 999 bytes");
   EXPECT_EQ(checkSpace("d", needed, { 1000, true }), "d: the dataset needs some 5 GB, and there are 1 KB");
+  EXPECT_EQ(checkSpace("d", needed, { 999499, true }), "d: the dataset needs some 5 GB, and there are 999 KB");
+  EXPECT_EQ(checkSpace("d", needed, { 999500, true }), "d: the dataset needs some 5 GB, and there are 1 MB");
   EXPECT_EQ(checkSpace("d", needed, { 5000000000, true }), "");
 }
 

@@ -13,6 +13,7 @@
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkTexture.h>
+#include <vtkUnsignedCharArray.h>
 
 namespace dgtk
 {
@@ -21,11 +22,11 @@ namespace
 
 constexpr const char* triangleArray = "dgtkTriangle";
 
-void copy(const std::vector<float>& values, vtkDataArray* array)
+template <typename T>
+void copy(const std::vector<T>& values, vtkDataArray* target)
 {
-  auto* target = static_cast<vtkFloatArray*>(array);
   target->SetNumberOfTuples(vtkIdType(values.size()) / target->GetNumberOfComponents());
-  std::memcpy(target->GetPointer(0), values.data(), values.size() * sizeof(float));
+  std::memcpy(target->GetVoidPointer(0), values.data(), values.size() * sizeof(T));
   target->Modified();
 }
 
@@ -79,12 +80,18 @@ PieceDraw::PieceDraw(vtkOpenGLRenderWindow* window, RasterFrame& frame, vtkOpenG
   {
     this->Data->GetPointData()->SetTCoords(arrayOf(2));
   }
+  ShaderVariant variant = chunk.mapper->material();
+  variant.pieces = true;
+  if (variant.colored)
+  {
+    vtkNew<vtkUnsignedCharArray> colors;
+    colors->SetNumberOfComponents(4);
+    this->Data->GetPointData()->SetScalars(colors);
+  }
   const auto triangles = arrayOf(1);
   triangles->SetName(triangleArray);
   this->Data->GetPointData()->AddArray(triangles);
   this->Mapper = vtkSmartPointer<PartMapper>::New();
-  ShaderVariant variant = chunk.mapper->material();
-  variant.pieces = true;
   this->Mapper->configure(&frame, variant, 0, {});
   this->Mapper->SetInputData(this->Data);
   this->Mapper->MapDataArrayToVertexAttribute(
@@ -105,6 +112,10 @@ void PieceDraw::fill(const Pieces& pieces, const RasterCamera& camera, PartActor
   if (this->Data->GetPointData()->GetTCoords())
   {
     copy(pieces.uvs, this->Data->GetPointData()->GetTCoords());
+  }
+  if (this->Data->GetPointData()->GetScalars())
+  {
+    copy(pieces.colors, this->Data->GetPointData()->GetScalars());
   }
   copy(pieces.triangles, this->Data->GetPointData()->GetArray(triangleArray));
   this->Data->Modified();

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPieces.h"
 
+#include "dgtkColorMap.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace dgtk
 {
@@ -181,16 +184,23 @@ private:
     }
     const Corner* turned[3] = { &a, area > 0 ? &b : &c, area > 0 ? &c : &b };
     const auto& indices = this->Range.model->triangles[this->Range.first + triangle];
+    const bool colored = !this->Range.model->colors.empty() || this->Range.model->colorMap;
     for (const Corner* corner : turned)
     {
       Eigen::Vector3d normal = Eigen::Vector3d::Zero();
       Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+      Eigen::Vector4d color = Eigen::Vector4d::Zero();
       for (std::size_t k = 0; k < 3; ++k)
       {
         normal += corner->weights[Eigen::Index(k)] * this->Range.geometry->normals[indices[k]].cast<double>();
         if (!this->Range.model->uvs.empty())
         {
           uv += corner->weights[Eigen::Index(k)] * this->Range.model->uvs[indices[k]];
+        }
+        if (colored)
+        {
+          const auto own = vertexColor(*this->Range.model, indices[k]);
+          color += corner->weights[Eigen::Index(k)] * Eigen::Vector4d(own[0], own[1], own[2], own[3]);
         }
       }
       for (int c3 = 0; c3 < 3; ++c3)
@@ -200,6 +210,10 @@ private:
       }
       this->Out.uvs.push_back(float(uv.x()));
       this->Out.uvs.push_back(float(uv.y()));
+      for (int channel = 0; colored && channel < 4; ++channel)
+      {
+        this->Out.colors.push_back(std::uint8_t(std::lround(color[channel])));
+      }
       this->Out.triangles.push_back(float(triangle));
     }
   }
@@ -227,6 +241,7 @@ void makePieces(const PieceRange& range, const RasterCamera& camera, Pieces& pie
   pieces.positions.clear();
   pieces.normals.clear();
   pieces.uvs.clear();
+  pieces.colors.clear();
   pieces.triangles.clear();
   pieces.others.clear();
   Cutter(range, camera, pieces).run();

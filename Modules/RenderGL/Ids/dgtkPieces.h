@@ -18,10 +18,12 @@ namespace dgtk
 /// passes close by, turn rounding errors into pixels. Cut at depths that double, no piece has either.
 struct Pieces
 {
-  // Three vertices per piece: OpenGL view coordinates, the model's normals, texture coordinates (none without).
+  // Three vertices per piece: OpenGL view coordinates, the model's normals, texture coordinates and colours (none
+  // without).
   std::vector<float> positions;
   std::vector<float> normals;
   std::vector<float> uvs;
+  std::vector<std::uint8_t> colors;
   std::vector<float> triangles; ///< per vertex: number of the triangle in its range
   /// The triangles of the range that were not cut: first (relative to the range) and count.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> others;

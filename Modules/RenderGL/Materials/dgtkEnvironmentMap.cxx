@@ -103,7 +103,6 @@ void EnvironmentMap::set(const std::shared_ptr<const EnvironmentState>& environm
     this->Irradiance[i] = float(light.irradiance[i / 3][Eigen::Index(i % 3)]);
   }
   glActiveTexture(GL_TEXTURE0);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glGenTextures(1, &this->Radiance);
   glBindTexture(GL_TEXTURE_2D, this->Radiance);
   for (int level = 0; level < EnvironmentLight::levels; ++level)
@@ -137,7 +136,6 @@ void EnvironmentMap::makePicture()
     throw MachineError(
       "OpenGL cannot hold an environment of " + std::to_string(image.width) + " x " + std::to_string(image.height));
   }
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glGenTextures(1, &this->Picture);
   glBindTexture(GL_TEXTURE_2D, this->Picture);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, image.width, image.height, 0, GL_RGB, GL_FLOAT, image.rgb.data());

@@ -24,7 +24,6 @@ unsigned int uploaded(const Image& image)
   glGenTextures(1, &name);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, name);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
@@ -42,6 +41,20 @@ MaterialMaps::~MaterialMaps()
   for (const auto& entry : this->Textures)
   {
     glDeleteTextures(1, &entry.second);
+  }
+}
+
+void MaterialMaps::drop()
+{
+  for (auto entry = this->Textures.begin(); entry != this->Textures.end();)
+  {
+    if (!entry->first.expired())
+    {
+      ++entry;
+      continue;
+    }
+    glDeleteTextures(1, &entry->second);
+    entry = this->Textures.erase(entry);
   }
 }
 

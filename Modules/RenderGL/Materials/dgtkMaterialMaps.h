@@ -38,10 +38,12 @@ public:
   ~MaterialMaps();
   /// Of a material of a model; maps of a model without texture coordinates count as absent.
   SurfaceParameters parameters(const Model& model, const Material& material);
+  /// Those of pictures that are gone.
+  void drop();
 
 private:
   unsigned int textureOf(const Model& model, int index);
-  std::map<std::shared_ptr<const Image>, unsigned int> Textures;
+  std::map<std::weak_ptr<const Image>, unsigned int, std::owner_less<>> Textures;
 };
 
 } // namespace dgtk

@@ -170,6 +170,14 @@ TEST(GLBackends, AutoFallsBackToOsmesaAndSaysWhy)
   EXPECT_EQ(answer.rest, "");
 }
 
+TEST(GLBackends, OsmesaIsPreloadedBesideOtherLibraries)
+{
+  const Answer beside = run("osmesa", "LD_PRELOAD=libm.so.6");
+  EXPECT_EQ(beside.status, 0);
+  EXPECT_THAT(beside.first, StartsWith("OSMesa, "));
+  EXPECT_EQ(beside.rest, "");
+}
+
 TEST(GLBackends, OsmesaWithoutPreparationSaysHow)
 {
   const Answer answer = run("osmesa unprepared");

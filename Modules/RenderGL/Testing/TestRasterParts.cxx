@@ -245,6 +245,7 @@ struct Ground
     this->Shape.rest = rest;
     this->Shape.triangles = { { 0, 1, 2 }, { 3, 4, 5 }, { 2, 1, 0 } };
     this->Shape.uvs = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 0, 0 }, { 1, 0 }, { 0, 1 } };
+    this->Shape.colors = { { 0, 10, 0, 255 }, { 200, 10, 0, 255 }, { 0, 10, 250, 55 }, {}, {}, {} };
     this->Range.model = &this->Shape;
     this->Range.geometry = rest.get();
     this->Range.count = 3;
@@ -277,6 +278,7 @@ TEST(Pieces, CoverWhatTheyAreCutFromOnceWithDepthsThatDouble)
   ASSERT_EQ(pieces.positions.size() % 9, 0u);
   ASSERT_EQ(pieces.triangles.size(), pieces.positions.size() / 3);
   ASSERT_EQ(pieces.uvs.size(), pieces.triangles.size() * 2);
+  ASSERT_EQ(pieces.colors.size(), pieces.triangles.size() * 4);
   double area[3] = { 0, 0, 0 };
   for (std::size_t i = 0; i + 2 < pieces.triangles.size(); i += 3)
   {
@@ -289,11 +291,16 @@ TEST(Pieces, CoverWhatTheyAreCutFromOnceWithDepthsThatDouble)
       x[k] = { p[0], p[1], p[2] };
       EXPECT_EQ(pieces.triangles[i + k], pieces.triangles[i]);
       EXPECT_FLOAT_EQ(p[1], -1);
-      // Texture coordinates and normals are linear on the triangle: v is the weight of the far corner.
+      // Texture coordinates, normals and colours are linear on the triangle: v is the weight of the far corner.
       const double v = (5 - p[2]) / 905;
       const double u = (p[0] + 300 * (1 - v)) / 600;
       EXPECT_NEAR(pieces.uvs[2 * (i + k)], u, 1e-5);
       EXPECT_NEAR(pieces.uvs[2 * (i + k) + 1], v, 1e-5);
+      const double color[4] = { 200 * u, 10, 250 * v, 255 - 200 * v };
+      for (std::size_t channel = 0; channel < 4; ++channel)
+      {
+        EXPECT_NEAR(pieces.colors[4 * (i + k) + channel], color[channel], 0.51);
+      }
       EXPECT_NEAR(pieces.normals[3 * (i + k)], v, 1e-5);
       EXPECT_NEAR(pieces.normals[3 * (i + k) + 1], 1 - v, 1e-5);
     }

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include <dlfcn.h>
+
 using namespace dgtk;
 using namespace dgtk::test;
 
@@ -162,4 +166,118 @@ TEST(RasterSource, SmallPartsAfterLargeOnesAreThoseOfANewSource)
   const SurfaceLists after = peeled(*kept, part);
   EXPECT_EQ(after.first, before.first) << "OpenGL's state is what VTK takes it to be";
   EXPECT_EQ(after.hits, before.hits);
+}
+
+// More surfaces than OpenGL's list takes at once.
+TEST(RasterSource, NoRowIsLostWhereSurfacesAreTakenInStrips)
+{
+  constexpr int squares = 33;
+  constexpr int side = 256;
+  ModelBuilder model;
+  model.part(flat({ 1, 1, 1 }));
+  for (int i = 0; i < squares; ++i)
+  {
+    const double z = -0.1 * i;
+    model.quad({ -2, -2, z }, { 2, -2, z }, { 2, 2, z }, { -2, 2, z });
+  }
+  source().setScene(stateOf({ model.finish() }), frontView(side, side));
+  SurfaceLists lists;
+  source().peel({ 0, 0, side, side }, lists)();
+  ASSERT_EQ(lists.first.size(), std::size_t(side * side + 1));
+  int wrong = 0;
+  for (std::size_t i = 0; i + 1 < lists.first.size(); ++i)
+  {
+    wrong += lists.first[i + 1] - lists.first[i] != squares;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+// Along the axis of a parallel projection, not from its middle.
+TEST(RasterSource, FogOfAParallelProjectionIsThatOfTheDepth)
+{
+  ModelBuilder model;
+  model.part(flat({ 1, 1, 1 }));
+  model.quad({ -20, -15, 0 }, { 20, -15, 0 }, { 20, 15, 0 }, { -20, 15, 0 });
+  const auto state = stateOf({ model.finish() });
+  state->fog = { { 0, 0, 0 }, 0.125, 2 };
+  const View view = viewOf(makeOrthographic(64, 48, 30, 0), { 0, 0, 10 }, { 0, 0, 0 }, 0.1, 100);
+  const ColorBuffer colors = renderColor(state, view);
+  for (const auto& [x, y] : { std::pair(32, 24), { 2, 24 }, { 60, 45 } })
+  {
+    EXPECT_LT((colorAt(colors, x, y).array() - std::exp(-0.125 * 8)).abs().maxCoeff(), 2e-5) << x << ' ' << y;
+  }
+}
+
+TEST(RasterSource, PicturesOfScenesThatAreGoneAreFreed)
+{
+  const auto isTexture = reinterpret_cast<unsigned char (*)(unsigned int)>(::dlsym(RTLD_DEFAULT, "glIsTexture"));
+  ASSERT_NE(isTexture, nullptr);
+  const auto textures = [isTexture]
+  {
+    int count = 0;
+    for (unsigned int name = 1; name < 1000; ++name)
+    {
+      count += isTexture(name) != 0 ? 1 : 0;
+    }
+    return count;
+  };
+  const auto picture = []
+  {
+    auto image = std::make_shared<Image>();
+    image->width = image->height = 2;
+    image->rgba.assign(16, 200);
+    return image;
+  };
+  const auto kept = makeRasterSource();
+  std::vector<int> counts;
+  for (int i = 0; i < 4; ++i)
+  {
+    ModelBuilder model;
+    Material material = matte({ 1, 1, 1 });
+    material.texture = model.texture(picture());
+    material.emissionMap = model.texture(picture());
+    model.part(material);
+    model.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+    material.cutOut = true;
+    material.emissionMap = 0;
+    model.part(material);
+    model.quad({ -1, -1, 1 }, { 0, -1, 1 }, { 0, 0, 1 }, { -1, 0, 1 });
+    kept->setScene(stateOf({ model.finish() }), frontView());
+    ColorBuffer colors;
+    kept->renderColor(whole(frontView()), 1, colors, nullptr);
+    counts.push_back(textures());
+  }
+  EXPECT_EQ(counts[3], counts[1]);
+  EXPECT_GT(counts[1], 3);
+}
+
+// Rows of 5 texels of three bytes are not aligned; VTK remembers how it takes them.
+TEST(RasterSource, PicturesTakenAfterMapsAreTheirOwn)
+{
+  const auto picture = []
+  {
+    auto image = std::make_shared<Image>();
+    image->width = image->height = 5;
+    for (int i = 0; i < 25; ++i)
+    {
+      image->rgba.insert(image->rgba.end(), { 255, 51, 0, 255 });
+    }
+    return image;
+  };
+  const auto kept = makeRasterSource();
+  for (const bool mapped : { false, true })
+  {
+    ModelBuilder model;
+    Material material = flat({ 0.5, 0.5, 1 });
+    material.texture = model.texture(picture());
+    model.part(material);
+    model.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+    material.emissionMap = mapped ? model.texture(picture()) : -1;
+    model.part(material);
+    model.quad({ -3, -3, -1 }, { 3, -3, -1 }, { 3, 3, -1 }, { -3, 3, -1 });
+    ColorBuffer colors;
+    kept->setScene(stateOf({ model.finish() }), frontView());
+    kept->renderColor(whole(frontView()), 1, colors, nullptr);
+    EXPECT_LT((colorAt(colors, 32, 24) - Eigen::Vector3d(0.5, 0.1, 0)).norm(), 1e-3) << mapped;
+  }
 }

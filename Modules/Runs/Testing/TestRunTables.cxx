@@ -117,6 +117,7 @@ TEST_F(RunTables, WaysToEnd)
     { "", { End::Lost, 0, 0, "", {} } },
     { "3/12 pictures, 1.5/s, 0:06 left\n", { End::Lost, 3, 12, "", {} } },
     { "3/12 pictures, 1.5/s, 0:06 left\n7/12 pictures, 1.5/s, ? left\n", { End::Lost, 7, 12, "", {} } },
+    { "3/12 samples, 1.5/s, 0:06 left\n", { End::Lost, 3, 12, "", {} } },
     { "3/12 pictures, 1.5/s, 0:06 left", { End::Lost, 0, 0, "", {} } }, // no whole line yet
     { "scene.json: a note\n12 pictures, 20 files in /data/out, 3.5 s\n",
       { End::Done, 0, 0, "12 pictures, 20 files in /data/out, 3.5 s",

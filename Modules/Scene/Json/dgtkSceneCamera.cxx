@@ -227,8 +227,8 @@ CameraParameters cameraParameters(
     made.K->row(1) *= double(height) / camera.height;
   }
   const CameraEntry* const model = findCamera(camera.model);
-  const std::pair<const char*, double> members[] = { { "fovY", camera.fovY.at(frame) }, { "aspect", camera.aspect },
-    { "viewHeight", camera.viewHeight.at(frame) } };
+  const std::pair<const char*, double> members[] = { { "fovY", boundedAt(camera.fovY, frame) },
+    { "aspect", camera.aspect }, { "viewHeight", boundedAt(camera.viewHeight, frame) } };
   for (const auto& [name, number] : members)
   {
     const CameraParameter* const parameter = model ? model->find(name) : nullptr;
@@ -248,7 +248,7 @@ CameraParameters cameraParameters(
     }
     for (const Track<double>& number : value.numbers)
     {
-      made.numbers[name].push_back(number.at(frame));
+      made.numbers[name].push_back(boundedAt(number, frame));
     }
   }
   return made;

@@ -16,10 +16,11 @@ constexpr std::uint64_t largestClasses = std::uint64_t(64) << 20;
 
 void readKeypointNames(const JsonCursor& at, ClassDescription& one)
 {
+  std::set<std::string_view> known;
   for (const JsonCursor& name : at.items())
   {
     const std::string& text = name.string(false);
-    if (std::find(one.keypoints.begin(), one.keypoints.end(), text) != one.keypoints.end())
+    if (!known.insert(text).second)
     {
       name.fail("is named twice", "names of which each is another", quoted(text));
     }

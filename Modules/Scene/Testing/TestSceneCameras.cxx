@@ -207,4 +207,16 @@ TEST(SceneCameras, ParametersAreThoseOfTheFrameAndTheSize)
   EXPECT_EQ(made.numbers.at("oddXi"), std::vector<double>{ 1.5 });
   EXPECT_EQ(made.numbers.at("fovY"), std::vector<double>{ 50 });
   EXPECT_EQ(made.files, (std::map<std::string, std::string>{ { "oddFile", "/scenes/rays.npy" } }));
+  // A smooth curve stays between its keys, as it would leave what a model may have otherwise.
+  const std::vector<Key<double>> steep{ { 0, 20 }, { 10, 170 }, { 20, 170 }, { 30, 20 } };
+  for (Track<double>* track : { &camera.fovY, &camera.viewHeight, &camera.parameters["oddXi"].numbers[0] })
+  {
+    track->keys = steep;
+    track->interpolation = Interpolation::Smooth;
+    ASSERT_GT(track->at(15), 180);
+  }
+  EXPECT_EQ(cameraParameters(camera, 15, 320, 240).numbers.at("fovY"), std::vector<double>{ 170 });
+  EXPECT_EQ(cameraParameters(camera, 15, 320, 240).numbers.at("oddXi"), std::vector<double>{ 170 });
+  camera.model = "orthographic";
+  EXPECT_EQ(cameraParameters(camera, 15, 320, 240).numbers.at("viewHeight"), std::vector<double>{ 170 });
 }

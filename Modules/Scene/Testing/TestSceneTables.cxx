@@ -280,13 +280,28 @@ TEST(SceneTables, NamesOfCamerasAreFitForFolders)
   {
     EXPECT_EQ(refusalOf("a.json", sceneWith("camera", "\"name\": \"" + name + '"')), "") << name;
   }
-  for (const std::string& name :
-    { std::string(), std::string("a/b"), std::string("a\\\\b"), std::string("a,b"), std::string("a@b"),
-      std::string("a:b"), std::string(".a"), std::string(" a"), std::string("-a"), std::string("a "),
-      std::string("manifest.json"), std::string("cameras.json"), std::string("objects.json"), std::string("scene.json"),
-      std::string("contact.png"), std::string(129, 'x'), std::string("a\\u0001b"), std::string("a\\u007fb") })
+  for (const std::string& name : { std::string(), std::string("a/b"), std::string("a\\\\b"), std::string("a,b"),
+         std::string("a@b"), std::string("a:b"), std::string(".a"), std::string(" a"), std::string("-a"),
+         std::string("a "), std::string("manifest.json"), std::string("cameras.json"), std::string("objects.json"),
+         std::string("poses.json"), std::string("scene.json"), std::string("contact.png"), std::string(129, 'x'),
+         std::string("a\\u0001b"), std::string("a\\u007fb") })
   {
     EXPECT_THAT(refusalOf("a.json", sceneWith("camera", "\"name\": \"" + name + '"')), HasSubstr("name")) << name;
+  }
+}
+
+TEST(SceneTables, MatricesOfCamerasAreThoseOfPinholes)
+{
+  const auto refusal = [](const std::string& rows)
+  { return refusalOf("a.json", sceneWith("camera", "\"width\": 64, \"height\": 48, \"K\": [" + rows + ']')); };
+  EXPECT_EQ(refusal("[50, 0, 32], [0, 50, 24], [0, 0, 1]"), "");
+  EXPECT_EQ(refusal("[50, -3, -32], [0, 0.5, 0], [0, 0, 1]"), "");
+  for (const char* rows : { "[0, 0, 32], [0, 50, 24], [0, 0, 1]", "[-50, 0, 32], [0, 50, 24], [0, 0, 1]",
+         "[50, 0, 32], [0, 0, 24], [0, 0, 1]", "[50, 0, 32], [0, -50, 24], [0, 0, 1]",
+         "[50, 0, 32], [1, 50, 24], [0, 0, 1]", "[50, 0, 32], [0, 50, 24], [1, 0, 1]",
+         "[50, 0, 32], [0, 50, 24], [0, 1, 1]", "[50, 0, 32], [0, 50, 24], [0, 0, 2]" })
+  {
+    EXPECT_THAT(refusal(rows), HasSubstr("is not a camera matrix")) << rows;
   }
 }
 
@@ -396,6 +411,7 @@ TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
     { [](auto& s) { s.cameras[0].shutter.close = 1; }, "camera 'Camera0': shutter" },
     { [](auto& s) { s.cameras[0].lens.aperture = 1; }, "camera 'Camera0': lens" },
     { [](auto& s) { s.cameras[0].sensor.emplace(); }, "camera 'Camera0': sensor" },
+    { [](auto& s) { s.cameras[0].parameters["distortion"].numbers.assign(4, -0.2); }, "camera 'Camera0': distortion" },
     { [](auto& s) {
        s.cameras[0].up.keys = { { 0, { 0, 1, 0 } }, { 1, { 0, 1, 0.5 } } };
      },

@@ -130,6 +130,24 @@ TEST(ThesisScene, StaticTracksAreRepeatedAtEveryKeyFrame)
                                       "5\n< 1 2 3 > { 1, < 0, 0, 0 > }\n< 2 0 0 > { 1, < 0, 0, 0 > }\n");
 }
 
+TEST(ThesisScene, WhatStandsSomewhereHasAKeyFrame)
+{
+  const TemporaryFolder folder;
+  SceneDescription scene;
+  scene.lights.resize(1);
+  scene.lights[0].position.value = { 1, 2, 3 };
+  const std::string light = toThesisScene(scene, "");
+  EXPECT_EQ(light, "1\nglObject_Light:\n1\n0\n< 1 2 3 > { 1, < 0, 0, 0 > }\n");
+  EXPECT_EQ(readText(folder, "a.scene", light).lights.at(0).position.at(0), Vector(1, 2, 3));
+  scene = {};
+  scene.objects.resize(1);
+  scene.objects[0].model = "a.ac";
+  scene.objects[0].scale.value = { 2, 2, 2 };
+  EXPECT_EQ(readText(folder, "b.scene", toThesisScene(scene, "")).objects.at(0).scale.at(0), Vector(2, 2, 2));
+  scene.objects[0].scale.value = { 1, 1, 1 };
+  EXPECT_EQ(toThesisScene(scene, ""), "1\nglObject_AC: a.ac\n0\n");
+}
+
 TEST(ThesisScene, AFileWithoutKeyFramesStaysOne)
 {
   expectRoundTrip("1\nglObject_Camera: ( 60, 0.1, 1000, 0 )\n[ 0 0 5, 0 0 0, 0 1 0 ]\n0\n");

@@ -132,9 +132,10 @@ Eigen::Vector3d ThesisLexer::vector(const Range& range, const std::string& what)
 
 std::string ThesisLexer::restOfLine(char stop)
 {
-  const std::size_t end = std::min(this->Text.find('\n', this->At), this->Text.find(stop, this->At));
-  std::string_view rest = this->Text.substr(this->At, end - this->At);
-  this->At = std::min(end, this->Text.size());
+  const std::size_t line = std::min(this->Text.find('\n', this->At), this->Text.size());
+  std::string_view rest = this->Text.substr(this->At, line - this->At);
+  rest = rest.substr(0, rest.find(stop));
+  this->At += rest.size();
   while (!rest.empty() && (rest.front() == ' ' || rest.front() == '\t'))
   {
     rest.remove_prefix(1);

@@ -227,6 +227,10 @@ private:
   {
     this->need(camera.model == CameraDescription().model, item, "model", "pinhole");
     this->need(!camera.K, item, "K");
+    for (const auto& parameter : camera.parameters)
+    {
+      this->need(false, item, parameter.first);
+    }
     this->need(camera.width == 0, item, "width");
     this->need(camera.height == 0, item, "height");
     this->need(!camera.shutter.blurs(), item, "shutter");

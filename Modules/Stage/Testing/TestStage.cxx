@@ -209,6 +209,24 @@ TEST(Stage, ExposuresOfALensAreSpreadOverItAndMeetInTheFocus)
   }
 }
 
+// Catmull-Rom through the keys would be behind the camera.
+TEST(Stage, FocusStaysBetweenItsKeys)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"cameras": [{"eye": [0, 0, 0], "lookAt": [0, 0, -9], "fovY": 40,
+    "lens": {"aperture": 0.5, "exposures": 4,
+      "focus": {"keys": [[0, 10], [10, 0.1], [20, 0.1]], "interpolation": "smooth"}}}]})");
+  const View middle = stage->view(0, 15, 64, 48);
+  const Eigen::Matrix3d K = middle.model->linear()->K;
+  for (const Exposure& one : stage->exposures(0, 15, 64, 48))
+  {
+    const Eigen::Vector2d point =
+      (middle.camera_from_world.translation - one.view.camera_from_world.translation).head<2>();
+    const Eigen::Vector2d shift = (one.view.model->linear()->K - K).topRightCorner<2, 1>();
+    EXPECT_LT((shift - K.topLeftCorner<2, 2>() * point / 0.1).norm(), 1e-9 * shift.norm());
+  }
+}
+
 TEST(Stage, FogIsThatOfTheScene)
 {
   const ModelFolder folder;

@@ -97,6 +97,50 @@ TEST(StageModels, ThoseOfASceneLikeItAreNotReadAgain)
   EXPECT_THROW(like(nullptr, R"({"objects": [)" + square + "}]}"), InputError);
 }
 
+TEST(StageModels, PicturesAreThoseOfTheSceneThatNamesThem)
+{
+  const ModelFolder first;
+  const TemporaryFolder second;
+  writeFile(first.path("t.ppm"), redPpm);
+  writeFile(second.path("t.ppm"), std::string("P6\n1 1\n255\n\0\0\xff", 14));
+  const std::string text = R"({"objects": [{"model": ")" + first.path("models/square.ac") +
+                           R"(", "materials": {"*": {"texture": "t.ppm"}}}]})";
+  const auto texel = [](const StageWithFiles& loaded)
+  { return loaded.stage->models().at(0)->textures.at(1).image->rgba; };
+  const StageWithFiles before = loadLike(readSceneText(text, first.path()), nullptr);
+  EXPECT_THAT(texel(before), testing::ElementsAre(255, 0, 0, 255));
+  const StageWithFiles after = loadLike(readSceneText(text, second.path()), before.files.get());
+  EXPECT_THAT(texel(after), testing::ElementsAre(0, 0, 255, 255));
+}
+
+TEST(StageModels, PicturesThatWereMissingAreLookedForAgain)
+{
+  const ModelFolder folder;
+  const std::string text =
+    R"({"objects": [{"model": "models/square.ac", "materials": {"*": {"texture": "late.ppm"}}}]})";
+  const auto image = [](const StageWithFiles& loaded) { return loaded.stage->models().at(0)->textures.at(1).image; };
+  const StageWithFiles before = loadLike(readSceneText(text, folder.path()), nullptr);
+  EXPECT_EQ(image(before), nullptr);
+  writeFile(folder.path("late.ppm"), redPpm);
+  EXPECT_NE(image(loadLike(readSceneText(text, folder.path()), before.files.get())), nullptr);
+}
+
+TEST(StageModels, ASeriesWithoutRoomKeepsWhatItsLastSceneUses)
+{
+  const ModelFolder folder;
+  SceneSeries series(0);
+  const auto load = [&](const char* model)
+  {
+    const std::string text = R"({"objects": [{"model": ")" + std::string(model) + "\"}]}";
+    return std::weak_ptr<const Model>(series.load(readSceneText(text, folder.path()))->models().at(0));
+  };
+  const auto square = load("models/square.ac");
+  EXPECT_FALSE(square.expired());
+  const auto runner = load("models/runner.md2");
+  EXPECT_TRUE(square.expired());
+  EXPECT_FALSE(runner.expired());
+}
+
 TEST(StageModels, FilesAreListed)
 {
   const ModelFolder folder;

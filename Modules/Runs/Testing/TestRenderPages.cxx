@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The render configuration, on no display.
+#include "dgtkRenderCameras.h"
+#include "dgtkRenderDialog.h"
+
+#include "dgtkEditorState.h"
+#include "dgtkFile.h"
+#include "dgtkTestSupport.h"
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSettings>
+#include <QSpinBox>
+
+#include <gtest/gtest.h>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+/// An application whose data and settings are in a folder of its own, and a scene.
+class RenderPages : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(this->Folder.path("data")));
+    qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(this->Folder.path("config")));
+    if (QCoreApplication::instance() == nullptr)
+    {
+      static int count = 1;
+      static char name[] = "TestRuns";
+      static char* arguments[] = { name, nullptr };
+      static QApplication application(count, arguments);
+      QCoreApplication::setOrganizationName("dgtk-test");
+    }
+    QSettings().clear();
+  }
+  void open(EditorState& state, const std::string& scene) const
+  {
+    writeFile(this->Folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n");
+    writeFile(this->Folder.path("scene.json"), scene);
+    state.document().open(this->Folder.path("scene.json"));
+  }
+
+  TemporaryFolder Folder;
+};
+} // namespace
+
+TEST_F(RenderPages, MattesOfTheSelectionAreNamesWithCommas)
+{
+  EditorState state(nullptr);
+  this->open(state, R"({"objects": [{"name": "a,b", "model": "quad.obj"}, {"name": "c", "model": "quad.obj"}]})");
+  const RenderDialog dialog(state, nullptr);
+  state.select({ { SceneItem::Kind::Object, 0 }, { SceneItem::Kind::Object, 1 } });
+  EXPECT_EQ(dialog.findChild<QLineEdit*>("matte")->text(), "a\\,b,c");
+}
+
+// K of 40 x 30 pixels is scaled to the size of all images, as a run scales it.
+TEST_F(RenderPages, ACameraOfAMatrixTakesTheCommonSize)
+{
+  EditorState state(nullptr);
+  this->open(state, R"({"cameras": [{"name": "k", "width": 40, "height": 30, "K": [[50, 0, 20], [0, 50, 15], [0, 0, 1]],
+    "eye": [0, 0, 5], "lookAt": [0, 0, 0], "near": 1, "far": 100}]})");
+  RenderCameras page(state, nullptr);
+  const auto* said = page.findChild<QLabel*>("resolution");
+  const auto has = [&said](const char* text) { return said->text().contains(text); };
+  EXPECT_TRUE(has("40 x 30 pixels") && has(">0.1 units<") && has(">2 units<")) << said->text().toStdString();
+  page.findChild<QCheckBox*>("ownSize")->setChecked(false);
+  page.findChild<QSpinBox*>("width")->setValue(80);
+  page.findChild<QSpinBox*>("height")->setValue(60);
+  EXPECT_TRUE(has("80 x 60 pixels") && has(">0.05 units<") && has(">1 units<")) << said->text().toStdString();
+}
