@@ -274,13 +274,26 @@ void MatchDialog::showPair(int row)
       its.frame->setValue(wanted[i]->frame);
     }
   }
-  if (this->Sides[side].view)
+  for (std::size_t i = 0; i < 2; ++i)
   {
-    const bool centers = this->Centers->isChecked();
-    this->Centers->setChecked(false);
-    this->pick(side, pair.match.from);
-    this->Centers->setChecked(centers);
+    const SparseView& view = *wanted[i];
+    if (!(this->sparseView(i == 0 ? side : 1 - side) == view))
+    {
+      this->Active.reset();
+      this->askMatch();
+      this->findChild<QLabel*>("match.from")
+        ->setText(tr("The scene has no view of %1, frame %2, with %3 x %4 pixels.")
+                    .arg(toText(view.camera))
+                    .arg(view.frame)
+                    .arg(view.width)
+                    .arg(view.height));
+      return;
+    }
   }
+  const bool centers = this->Centers->isChecked();
+  this->Centers->setChecked(false);
+  this->pick(side, pair.match.from);
+  this->Centers->setChecked(centers);
 }
 
 void MatchDialog::swapSides()

@@ -313,9 +313,13 @@ void MatchDialog::showMatch()
       set("match.line", exactText(line.x()) + " x" + term(line.y(), " y") + term(line.z(), " = 0"));
       set("match.distance", surface ? tr("%1 pixels").arg(exactText(match.lineDistance)) : QString());
     }
-    else
+    else if (match.message.empty())
     {
-      set("match.line", tr("none: the ray is a point in the other picture"));
+      const bool linear = std::all_of(this->Sides.begin(), this->Sides.end(),
+        [](const Side& side)
+        { return side.view && side.view->view.model->linear() && !side.view->view.model->rolls(); });
+      set("match.line", linear ? tr("none: the ray is a point in the other picture, or at infinity")
+                               : tr("none: one of the cameras is not linear, or has a rolling shutter"));
     }
   }
   this->showMarks();

@@ -58,6 +58,12 @@ TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
         this->Before.reset(); // its models are nobody's any more
         this->Opened = opened;
       }
+      const bool listed = this->isListed();
+      if (this->Listed && !listed)
+      {
+        this->Through.reset();
+      }
+      this->Listed = listed;
       this->showSubject();
       this->askSoon();
     });
@@ -109,6 +115,7 @@ void TruthView::setLayer(const QString& layer)
 void TruthView::lookThrough(const CameraDescription& camera)
 {
   this->Through = camera;
+  this->Listed = this->isListed();
   this->showSubject();
   this->askSoon();
 }
@@ -136,6 +143,8 @@ const CameraDescription* TruthView::camera() const
   }
   return &*this->Through;
 }
+
+bool TruthView::isListed() const { return this->Through && this->camera() != &*this->Through; }
 
 QString TruthView::shown() const { return this->Through && this->Layer.isEmpty() ? QString(draftLayer) : this->Layer; }
 

@@ -63,6 +63,8 @@ private:
   std::optional<LiveQuestion> question();
   /// Whose picture covers the view; null: the view's own eye is seen.
   const CameraDescription* camera() const;
+  /// Whether that is one of the scene; a preview may be of one that is not added yet.
+  bool isListed() const;
   /// The layer that is seen: through a camera its own picture, also in colour. Empty: the view's drawing.
   QString shown() const;
   void showSubject();
@@ -82,6 +84,7 @@ private:
   std::shared_ptr<const LiveScene> Before; ///< the last one that was asked, of the same document
   std::size_t Opened = 0;                  ///< SceneDocument::opened() of it
   std::optional<CameraDescription> Through;
+  bool Listed = false; ///< isListed(), at the last change
   QString Layer;
   QString Covering; ///< the layer whose picture covers the view, empty: none does
   bool AskWanted = false;

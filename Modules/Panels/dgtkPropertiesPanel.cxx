@@ -4,6 +4,7 @@
 #include "dgtkItemMotion.h"
 #include "dgtkNumberRow.h"
 #include "dgtkPortableMath.h"
+#include "dgtkSequenceBar.h"
 
 #include <QFormLayout>
 #include <QLabel>
@@ -138,6 +139,15 @@ QString PropertiesPanel::rowsWanted() const
     return rows;
   }
   const SceneItem item = this->State.selection().front();
+  if (item.kind == SceneItem::Kind::Object && item.index < scene.objects.size())
+  {
+    const ObjectDescription& object = scene.objects[item.index];
+    rows += '\n' + toText(object.model) + '\n' + toText(object.parent);
+    for (const std::string& sequence : sequencesOf(scene, object, this->State.document().models()))
+    {
+      rows += '\n' + toText(sequence);
+    }
+  }
   if (item.kind == SceneItem::Kind::Light && item.index < scene.lights.size())
   {
     rows += QString("\n%1").arg(static_cast<int>(scene.lights[item.index].kind));

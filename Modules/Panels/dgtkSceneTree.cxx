@@ -4,6 +4,7 @@
 #include "dgtkItemDialogs.h"
 
 #include <QHeaderView>
+#include <QLineEdit>
 #include <QStyle>
 #include <QTimer>
 
@@ -47,6 +48,7 @@ SceneTree::SceneTree(EditorState& state, QWidget* parent)
   connect(&state, &EditorState::selectionChanged, this, &SceneTree::showSelection);
   connect(this, &QTreeWidget::itemSelectionChanged, this, &SceneTree::takeSelection);
   connect(this, &QTreeWidget::itemChanged, this, &SceneTree::takeName);
+  connect(&state, &EditorState::typingEnds, this, &SceneTree::takeTyped);
   this->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(this, &QWidget::customContextMenuRequested, this,
     [this](const QPoint& at) { emit this->menuAsked(this->viewport()->mapToGlobal(at)); });
@@ -195,18 +197,33 @@ void SceneTree::takeName(QTreeWidgetItem* row)
   {
     return;
   }
+  this->Named.emplace(item, name);
   // Later: the edit makes the rows anew, and this one is still being edited.
-  QTimer::singleShot(0, this,
-    [this, item, name]
+  QTimer::singleShot(0, this, &SceneTree::renameNamed);
+}
+
+void SceneTree::renameNamed()
+{
+  const auto named = std::exchange(this->Named, std::nullopt);
+  const auto rename = [&](SceneDescription& scene) { renameItem(scene, named->first, named->second); };
+  if (named && !this->State.attempt([&] { this->State.document().edit("Rename", rename); }))
+  {
+    this->Shown.clear();
+    this->refresh();
+  }
+}
+
+void SceneTree::takeTyped()
+{
+  for (QLineEdit* editor : this->viewport()->findChildren<QLineEdit*>())
+  {
+    if (!editor->isHidden()) // others wait to be deleted
     {
-      const bool done = this->State.attempt([&]
-        { this->State.document().edit("Rename", [&](SceneDescription& scene) { renameItem(scene, item, name); }); });
-      if (!done)
-      {
-        this->Shown.clear();
-        this->refresh();
-      }
-    });
+      this->commitData(editor);
+      this->closeEditor(editor, QAbstractItemDelegate::NoHint);
+    }
+  }
+  this->renameNamed();
 }
 
 } // namespace dgtk

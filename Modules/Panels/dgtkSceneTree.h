@@ -7,7 +7,9 @@
 
 #include <QTreeWidget>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dgtk
@@ -31,11 +33,15 @@ private:
   void showSelection();
   void takeSelection();
   void takeName(QTreeWidgetItem* row);
+  void renameNamed();
+  /// The name that is being typed.
+  void takeTyped();
   std::vector<std::string> listing() const;
 
   EditorState& State;
   QTreeWidgetItem* Groups[3];
   std::vector<std::string> Shown;
+  std::optional<std::pair<SceneItem, std::string>> Named; ///< what is to be renamed, and how
   bool Busy = false;
 };
 

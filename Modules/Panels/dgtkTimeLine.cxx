@@ -102,6 +102,7 @@ TimeLine::TimeLine(EditorState& state, QWidget* parent)
   connect(on, &QToolButton::clicked, this->Cells, [this] { this->Cells->goToKey(1); });
   connect(&state, &EditorState::frameChanged, this, &TimeLine::refresh);
   connect(&state, &EditorState::changed, this, &TimeLine::refreshRate);
+  connect(&state, &EditorState::typingEnds, this->Rate, &QAbstractSpinBox::interpretText);
   connect(make, &QPushButton::clicked, this->Cells, &TimeLineCells::makeKey);
   connect(remove, &QPushButton::clicked, this->Cells, &TimeLineCells::removeKey);
   this->refreshRate();

@@ -81,20 +81,16 @@ std::string nameOfDataset(const std::string& folder)
 /// Longest side of what is shown of each picture, so that all together are mostCells at most.
 int sideOf(const ReportSource& source, const std::vector<ReportLayer>& layers)
 {
-  std::size_t pictures = 0;
-  double shape = 1; // height by width, of the least pictures
-  for (const ReportLayer& layer : layers)
-  {
-    pictures += std::size_t(std::count_if(
-      source.shown.begin(), source.shown.end(), [&](std::size_t picture) { return layer.files.count(picture) > 0; }));
-  }
+  double cells = 0; // of all, where the longest sides are 1
   for (const std::size_t picture : source.shown)
   {
     const CameraRecord& camera = source.pictures[picture].shot->camera;
     const double ratio = double(camera.height) / camera.width;
-    shape = std::min(shape, std::min(ratio, 1 / ratio));
+    const auto files = std::count_if(
+      layers.begin(), layers.end(), [&](const ReportLayer& layer) { return layer.files.count(picture) > 0; });
+    cells += double(files) * std::min(ratio, 1 / ratio);
   }
-  const double side = std::sqrt(mostCells / std::max<double>(1, double(pictures)) / shape);
+  const double side = std::sqrt(mostCells / std::max(1.0, cells));
   return std::min(largestSide, std::max(smallestSide, static_cast<int>(side) / 8 * 8));
 }
 
@@ -219,6 +215,7 @@ ReportJson datasetJson(const ReportSource& source, const ReportRequest& request)
   std::set<std::string> cameras;
   std::uint64_t bytes = 0;
   std::uint64_t files = 0;
+  std::size_t warningCount = 0;
   ReportJson warnings = ReportJson::array();
   for (const ReportScene& scene : source.scenes)
   {
@@ -236,7 +233,7 @@ ReportJson datasetJson(const ReportSource& source, const ReportRequest& request)
     }
     for (const std::string& line : scene.view->manifest().warnings)
     {
-      if (warnings.size() < mostNotes)
+      if (++warningCount <= mostNotes)
       {
         warnings.push_back((scene.name.empty() ? "" : printable(scene.name) + ": ") + printable(line));
       }
@@ -252,7 +249,7 @@ ReportJson datasetJson(const ReportSource& source, const ReportRequest& request)
     { "pictures", source.pictures.size() }, { "read", source.read.size() }, { "shown", source.shown.size() },
     { "cameras", cameras.size() }, { "files", files }, { "bytes", bytes },
     { "units", utf8FromBytes(first.manifest().units) }, { "seed", request.seed }, { "info", info },
-    { "warnings", warnings } };
+    { "warnings", warnings }, { "warningCount", warningCount } };
 }
 
 ReportJson layerJson(const ReportLayer& layer, const LayerResult& result)

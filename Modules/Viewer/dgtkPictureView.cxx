@@ -28,6 +28,13 @@ constexpr int readOutMargin = 4;
 
 QPointF toQt(const Eigen::Vector2d& v) { return { v.x(), v.y() }; }
 Eigen::Vector2d fromQt(const QPointF& p) { return { p.x(), p.y() }; }
+
+/// Whether both show the same, perhaps in another part and step.
+bool isSame(const ShownPointer& a, const ShownPointer& b)
+{
+  return a && b && a->dataset == b->dataset && a->ask.key == b->ask.key && a->ask.surface == b->ask.surface &&
+         a->ask.range == b->ask.range;
+}
 } // namespace
 
 void PictureSync::setCursor(const std::optional<QPoint>& pixel)
@@ -59,8 +66,7 @@ PictureView::PictureView(PictureSync& sync, QWidget* parent)
 
 void PictureView::showPicture(const ShownPointer& shown)
 {
-  const bool same = this->Shown && shown && this->Shown->ask.key == shown->ask.key;
-  this->Detail = same ? this->Detail : nullptr;
+  this->Detail = isSame(this->Shown, shown) ? this->Detail : nullptr;
   this->Shown = shown;
   this->Message = shown ? shown->error : QString();
   this->setToolTip(this->Message);
@@ -70,8 +76,7 @@ void PictureView::showPicture(const ShownPointer& shown)
 
 void PictureView::showDetail(const ShownPointer& shown)
 {
-  const bool fits = this->Shown && shown && shown->picture && this->Shown->ask.key == shown->ask.key;
-  this->Detail = fits ? shown : this->Detail;
+  this->Detail = isSame(this->Shown, shown) && shown->picture ? shown : this->Detail;
   this->update();
 }
 

@@ -47,7 +47,7 @@ class PictureView : public QWidget
 public:
   PictureView(PictureSync& sync, QWidget* parent);
 
-  /// Null: nothing yet. The picture before stays where only its colours change.
+  /// Null: nothing yet. The detail stays where it is of the same picture in the same colours.
   void showPicture(const ShownPointer& shown);
   /// A part in more detail, over the picture.
   void showDetail(const ShownPointer& shown);

@@ -25,11 +25,12 @@ void SceneFiles::askSample()
   if (!path.isEmpty())
   {
     rememberFolder(path);
+    this->Discarded.clear(); // what was given up for another one
     this->sampleFile(path);
   }
 }
 
-void SceneFiles::offerToSample(const QString& path)
+void SceneFiles::offerToSample(const QString& path, const std::string& given)
 {
   QMessageBox box(QMessageBox::Question, tr("DGTk"), tr("%1 has random values.").arg(QFileInfo(path).fileName()),
     QMessageBox::Cancel, &this->Window);
@@ -41,6 +42,7 @@ void SceneFiles::offerToSample(const QString& path)
   box.exec();
   if (box.clickedButton() == sample)
   {
+    this->Discarded = given;
     this->sampleFile(path);
   }
 }

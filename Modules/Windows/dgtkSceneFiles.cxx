@@ -153,8 +153,7 @@ bool SceneFiles::openFile(const QString& path)
     });
   if (read && loaded->random)
   {
-    this->Discarded = before;
-    this->offerToSample(path);
+    this->offerToSample(path, before);
     return false;
   }
   // What was edited in the meantime is not thrown away unasked.

@@ -64,8 +64,8 @@ signals:
   void datasetAsked(const QString& folder);
 
 private:
-  /// Offers to draw samples of a random scene, which is not opened itself.
-  void offerToSample(const QString& path);
+  /// Offers to draw samples of a random scene, which is not opened itself. `given`: the scene that may go for them.
+  void offerToSample(const QString& path, const std::string& given);
   SampleDialog& sampling();
   /// The scene is a sample, perhaps edited, that is in no file.
   bool isSample() const;

@@ -234,6 +234,16 @@ class Report(Case):
         self.assertEqual((width % 8, height), (0, width * 3 // 4))
         self.assertLessEqual(42 * width * height, 3e6)
         self.assertGreater(42 * (width + 8) * (height + 6), 3e6)
+        # a narrow picture does not make the others larger
+        cameras = [{"name": f"c{i}", "width": 400, "height": 400, "fovY": 40, "near": 0.1, "far": 50, "eye": [i, 1, 5], "lookAt": [0, 0, 0]} for i in range(3)]
+        cameras.append({**cameras[0], "name": "narrow", "width": 1000, "height": 10})
+        scene = self.write("narrow.json", json.dumps({"version": 1, "objects": [{"name": "crate", "model": os.path.join(SOURCE, "Data/Models/crate.ac")}], "cameras": cameras}))
+        self.dgtk("render", scene, "-o", self.path("narrow"), "--quiet", "--visibility", "ray", "--layers", "depth,distance,objects,classes,normal,position,uv")
+        page = self.report(self.path("narrow"))
+        sizes = [block_of(page, layer, shown)[1].shape[:2] for layer in range(7) for shown in range(4)]
+        side = int((3e6 / 7 / (3 + 0.01)) ** 0.5) // 8 * 8
+        self.assertEqual(set(sizes), {(side, side), (round(10 * side / 1000), side)})
+        self.assertLessEqual(sum(height * width for height, width in sizes), 3e6)
 
     def test_subset_and_same_bytes(self):
         folder = self.render(layers="depth,objects")
@@ -243,6 +253,9 @@ class Report(Case):
         model = model_of(page)
         self.assertEqual((model["dataset"]["read"], model["dataset"]["shown"]), (3, 2))
         self.assertEqual(model["layers"][0]["pictures"], 3)
+        fewer = model_of(self.report(folder, "--pictures", "3", "--read", "1", name="fewer.html"))["dataset"]
+        self.assertEqual((fewer["read"], fewer["shown"]), (3, 3))
+        self.assertEqual(model_of(self.report(folder, "--pictures", "all", "--read", "3", name="all.html"))["dataset"]["shown"], 6)
         again = self.report(folder, "--pictures", "2", "--read", "3", "--threads", "2", name="again.html")
         with open(page, "rb") as one, open(again, "rb") as other:
             self.assertEqual(one.read(), other.read())
@@ -269,6 +282,7 @@ class Report(Case):
         self.assertEqual((model["samples"]["samples"], model["samples"]["touched"], model["samples"]["reasonCount"]), (4, 3, 2))
         self.assertIn("broken", model["notes"][0])
         self.assertEqual(model["seen"]["objects"][0]["scenes"], 2)
+        self.assertEqual(model_of(self.report(self.path("scenes"), "--pictures", "1"))["dataset"]["scenes"], 2)  # the numbers are of more than what is shown
 
     def test_documents_beside(self):
         folder = self.render(layers="color,depth,objects,classes,boxes,amodal", more=("--frames", "0"))
@@ -352,10 +366,15 @@ class Report(Case):
         cameras = [{"name": f"c{i:03d}", "width": 8, "height": 6, "fovY": 50, "near": 0.1, "far": 50, "eye": [i / 10 - 5, 0, 20], "lookAt": [0, 0, 0]} for i in range(104)]
         scene = self.write("many.json", json.dumps({"version": 1, "objects": objects, "cameras": cameras}))
         self.dgtk("render", scene, "-o", self.path("many"), "--quiet", "--layers", "objects", "--visibility", "ray")
+        self.write("many/samples.json", json.dumps({"samples": [{"refused": {"path": f"objects/o{i}/place", "why": "no room"}} for i in range(104)]}))
+        manifest = load_json(self.path("many", "manifest.json"))
+        self.write("many/manifest.json", json.dumps({**manifest, "warnings": [f"warning {i}" for i in range(203)]}))
         model = model_of(self.report(self.path("many"), "--pictures", "1"))
         plan, seen = model["plans"][0], model["seen"]
         self.assertEqual((len(plan["cameras"]), plan["allCameras"], len(plan["objects"]), plan["allObjects"]), (100, 104, 300, 310))
         self.assertEqual((len(seen["objects"]), seen["objectCount"], len(seen["classes"]), seen["classCount"]), (200, 310, 200, 310))
+        self.assertEqual((len(model["samples"]["reasons"]), model["samples"]["reasonCount"]), (100, 104))
+        self.assertEqual((len(model["dataset"]["warnings"]), model["dataset"]["warningCount"]), (200, 203))
         self.assertEqual((len(model["frames"]["emptiest"]), len(model["frames"]["largest"])), (24, 24))
         self.assertEqual([len(model["names"]["0"][key]) for key in ("objects", "classes")], [310, 310])
         self.assertEqual(len(model["colors"]), 256)
@@ -451,6 +470,58 @@ class Page(Report):
             with Browser(width, 800, dark=True) as browser:
                 browser.open(page)
                 self.assertEqual(browser.evaluate("document.documentElement.scrollWidth"), width)
+
+    def changed(self, page, change):
+        """The page of another model."""
+        model = model_of(page)
+        change(model)
+        with open(page, encoding="utf-8") as file:
+            text = file.read()
+        data = json.dumps(model).replace("<", "\\u003c")
+        return self.write("changed.html", re.sub(r'(<script type="application/json" id="model">).*?(</script>)', lambda found: found.group(1) + data + found.group(2), text, count=1, flags=re.S))
+
+    def test_filter_charts_and_lists(self):
+        def change(model):
+            depth = next(layer for layer in model["layers"] if layer["label"] == "depth")
+            depth["numbers"]["bins"] = [[i, 3] for i in range(-30, 100)]
+            views = model["viewpoints"]
+            views.update(views=5 * views["columns"], bins=[0] * (views["columns"] * (views["rows"] - 1)) + [5] * views["columns"])  # all from above
+            model["verification"] = {"passed": True, "residuals": [], "unchecked": [{"layer": "masks", "format": "exr", "files": 17}]}
+            model["samples"] = {"samples": 300, "touched": 104, "reasonCount": 104, "reasons": [{"path": f"objects/o{i}", "why": "no room", "times": 1, "example": "4"} for i in range(100)]}
+            model["dataset"].update(warnings=[f"warning {i}" for i in range(200)], warningCount=203)
+        page = self.changed(self.report(self.render(layers="depth,objects", more=("--frames", "0:1"))), change)
+        with Browser(1400, 900) as browser:
+            browser.open(page)
+            # bars: 112 eighths of octaves by twos, what is smaller in the first; the smallest shown is 2^-2 (1 + 4/8)
+            card = "[...document.querySelectorAll('#cards .card')].find((one) => one.querySelector('h3').textContent === '%s')"
+            counts = browser.evaluate(f"[...({card % 'depth'}).querySelectorAll('rect title')].map((one) => Number(one.textContent))")
+            self.assertEqual(counts, [3 * 20] + [6] * 55)
+            self.assertEqual(browser.evaluate(f"({card % 'depth'}).querySelector('text').textContent"), "≤ 0.38")
+            rows = browser.evaluate(f"[...({card % 'Coverage of viewpoints'}).querySelectorAll('rect')].map((one) => [one.querySelector('title').textContent, Number(one.getAttribute('y'))])")
+            self.assertEqual({y for number, y in rows if number == "5"}, {min(y for _, y in rows)})
+            listed = browser.evaluate("document.getElementById('check-list').textContent")
+            for words in ("masksexr17", "in 104 of 300 samples, the first 100 of 104 reasons", "Warnings of the renderer (200 of 203)"):
+                self.assertIn(words, listed)
+            # pictures of one camera: Tab reaches the first of them, and the dialog stays among them
+            shown = "[...document.querySelectorAll('.shot')].filter((one) => !one.hidden)"
+            for camera in ("left", "right"):
+                browser.evaluate("(() => { const list = document.getElementById('filter'); "
+                                 f"list.value = [...list.options].find((one) => one.textContent === '{camera}').value; list.dispatchEvent(new Event('change')); }})()")
+                self.assertEqual(browser.evaluate(f"{shown}.map((one) => one.getAttribute('aria-label'))"), [f"{camera} · frame 0", f"{camera} · frame 1"])
+                self.assertEqual(browser.evaluate("[...document.querySelectorAll('.shot')].filter((one) => one.tabIndex === 0).map((one) => one.getAttribute('aria-label'))"), [f"{camera} · frame 0"])
+            browser.evaluate(f"{shown}[0].focus()")
+            browser.key("Enter")
+            cross = "(({ left, top }) => [left, top].map(parseFloat))(document.querySelector('#view-picture .cross').style)"
+            for key in ("ArrowLeft", "ArrowUp"):
+                for _ in range(5):
+                    browser.key(key, shift=True)
+            for frame in (1, 0, 1):
+                browser.key("PageDown")
+                self.assertEqual(browser.evaluate("document.getElementById('view-title').textContent"), f"right · frame {frame}")
+                np.testing.assert_allclose(browser.evaluate(cross), (50 / 96, 50 / 72), rtol=1e-3)  # the corner's pixel, in hundredths
+            browser.key("PageUp")
+            self.assertEqual(browser.evaluate("document.getElementById('view-title').textContent"), "right · frame 0")
+            self.assertEqual(browser.problems, [])
 
     def test_ten_thousand_pictures(self):
         """The work and the page do not grow with the dataset; the time that the page's own clock says is printed."""

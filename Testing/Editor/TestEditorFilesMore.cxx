@@ -158,6 +158,14 @@ void TestEditorFiles::exportsForPovRay()
     QCOMPARE(process.exitCode(), 0);
     QVERIFY(QFile::exists(this->path("crate.png")));
   }
+  // Of several cameras the one that is selected.
+  answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
+  QVERIFY(this->Window->openFile(demo()));
+  this->select("right");
+  this->inFileDialog("exportPov", [&](QFileDialog& dialog) { name(dialog, this->path("right")); });
+  const QByteArray written = contentsOf(this->path("right.pov"));
+  QVERIFY(written.startsWith("// Camera 'right', frame 0."));
+  QVERIFY2(written.contains(", 0.2, 1.75, 5.4> scale "), "its eye");
 }
 
 void TestEditorFiles::filesOfTheCommandLineOpen()

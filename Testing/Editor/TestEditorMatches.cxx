@@ -244,6 +244,14 @@ void TestEditorTruth::panesZoomAndPan()
   QVERIFY(std::abs(moved - x - 0.1) < 1e-9);
   QTest::keyClick(pane, Qt::Key_0);
   QVERIFY((imageAt({ 0, 0 }) - corner).manhattanLength() < 1e-9);
+  // Up to the last column.
+  dialog->findChild<QCheckBox*>("centers")->setChecked(true);
+  this->clickMatch(dialog, 0, QPointF(637.5, 250));
+  for (int i = 0; i < 6; ++i)
+  {
+    QTest::keyClick(pane, Qt::Key_Right);
+  }
+  QCOMPARE(textOf(dialog, "match.from").section(':', 1).section(',', 0, 0).toDouble(), 639.5);
 }
 
 void TestEditorTruth::aStereoPairWithGroundTruth()

@@ -15,6 +15,8 @@
 #include <QSpinBox>
 #include <QTreeWidget>
 
+#include <memory>
+
 using dgtk::test::sourceFile;
 
 namespace
@@ -220,6 +222,53 @@ void TestEditorSamples::unsavedWorkIsAskedAbout()
   QVERIFY(this->shown() != edited);
 }
 
+void TestEditorSamples::whatIsGivenUpIsGivenUpForOneSample()
+{
+  const QString scene = this->write("balls.json", balls());
+  const QString never = this->write("never.json", balls(QByteArray(neverSeen).replace("%1", "2")));
+  const auto discard = []
+  { answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); }); };
+  const auto giveUpInVain = [&]
+  {
+    discard();
+    answer<QMessageBox>("randomBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
+    QVERIFY(!this->Window->openFile(scene));
+  };
+  const auto isAskedAbout = [&](const std::function<void()>& what)
+  {
+    const auto asked = std::make_shared<bool>(false);
+    answer<QMessageBox>("unsavedBox",
+      [asked](QMessageBox& box)
+      {
+        *asked = true;
+        box.button(QMessageBox::Cancel)->click();
+      });
+    what();
+    return *asked && this->status() == "Stopped.";
+  };
+  const auto sample = [&]
+  {
+    answer<QFileDialog>({},
+      [&](QFileDialog& files)
+      {
+        files.findChild<QLineEdit*>("fileNameEdit")->setText(scene);
+        QMetaObject::invokeMethod(&files, "accept");
+      });
+    this->action("sampleScene")->trigger();
+  };
+  QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
+  const QByteArray own = this->shown();
+  giveUpInVain();
+  QVERIFY(isAskedAbout(sample));
+  giveUpInVain();
+  QVERIFY(isAskedAbout([this] { this->click("draw"); }));
+  discard();
+  this->opened(never);
+  this->waitFor("Sample 0 is refused: ");
+  QVERIFY(isAskedAbout(sample));
+  QCOMPARE(this->shown(), own);
+}
+
 void TestEditorSamples::aSampleIsKept()
 {
   const QString scene = this->write("balls.json", balls());
@@ -267,6 +316,11 @@ void TestEditorSamples::manyAreWritten()
   QTRY_VERIFY(write->isEnabled());
   const QString said = this->status("writerStatus");
   QVERIFY2(said.endsWith("; Replace removes them") && !said.contains("--"), qPrintable(said));
+  typeInto(dialog->findChild<QSpinBox*>("first"), "5");
+  typeInto(folder, this->path("one"));
+  this->click("write");
+  QTRY_VERIFY(write->isEnabled());
+  QVERIFY2(this->status("writerStatus").startsWith("1 scenes in "), qPrintable(this->status("writerStatus")));
   typeInto(dialog->findChild<QSpinBox*>("first"), "6");
   this->click("write");
   QCOMPARE(this->status("writerStatus"), QString("The first number is greater than the last."));

@@ -21,6 +21,7 @@ private slots:
   void whatIsRefusedAndLeftOutIsSaid();
   void aSampleIsStopped();
   void unsavedWorkIsAskedAbout();
+  void whatIsGivenUpIsGivenUpForOneSample();
   void aSampleIsKept();
   void manyAreWritten();
   void writingIsCancelled();

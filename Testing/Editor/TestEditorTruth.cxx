@@ -157,6 +157,33 @@ void TestEditorTruth::previewLeavesTheViewFree()
     });
   this->action("camera")->trigger(); // starts where the view stands
   QCOMPARE(height, QString("20"));
+
+  // A camera that is no longer one of the scene is not looked through; one that is not added yet may be.
+  const dgtk::SceneItem first{ dgtk::SceneItem::Kind::Camera, 0 };
+  document.edit("Rename", [&](dgtk::SceneDescription& scene) { renameItem(scene, first, "renamed"); });
+  QCOMPARE(subject->text(), QString());
+  this->select("renamed");
+  this->action("preview")->trigger();
+  QVERIFY(subject->text().contains("renamed"));
+  document.remove({ first });
+  QCOMPARE(subject->text(), QString());
+  answer<QDialog>({},
+    [](QDialog& dialog)
+    {
+      for (QPushButton* button : dialog.findChildren<QPushButton*>())
+      {
+        if (button->text() == "&Preview")
+        {
+          button->click();
+        }
+      }
+      dialog.reject();
+    });
+  this->action("camera")->trigger();
+  const QString previewed = subject->text();
+  QVERIFY(!previewed.isEmpty());
+  document.edit("Other", [](dgtk::SceneDescription& scene) { scene.fps = 50; });
+  QCOMPARE(subject->text(), previewed);
 }
 
 /// Lens, roll, shape and motion are the camera's own, also in colour.

@@ -21,6 +21,7 @@ private slots:
   void aDynamicScene();
   void aCameraOfTheThesis();
   void aParallelCamera();
+  void aCameraOfATable();
   void lettersLeadToFields();
   void choicesAreKept();
 

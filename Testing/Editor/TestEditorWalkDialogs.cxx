@@ -12,6 +12,8 @@
 #include <QLineEdit>
 #include <QPushButton>
 
+#include <fstream>
+
 /// They have a height instead of an angle, and one size of a pixel at every depth.
 void TestEditorWalk::aParallelCamera()
 {
@@ -32,6 +34,28 @@ void TestEditorWalk::aParallelCamera()
   typeInto(dialog->findChild<QLineEdit*>("renderFov.0"), "24");
   QCOMPARE(this->Window->document().scene().cameras[0].viewHeight.value, 24.0);
   QVERIFY2(said->text().contains("0.05"), qPrintable(said->text()));
+}
+
+/// Its rays are in a file beside the scene, wherever the editor was started.
+void TestEditorWalk::aCameraOfATable()
+{
+  std::ofstream rays(this->path("rays.npy").toStdString(), std::ios::binary);
+  const std::string head = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2, 3), }";
+  rays << std::string("\x93NUMPY\x01\x00\x76\x00", 10) << head << std::string(117 - head.size(), ' ') << '\n';
+  for (const double component : { -0.5, 0.5, 1.0, 0.5, 0.5, 1.0, -0.5, -0.5, 1.0, 0.5, -0.5, 1.0 })
+  {
+    rays.write(reinterpret_cast<const char*>(&component), sizeof component);
+  }
+  rays.close();
+  std::ofstream(this->path("table.json").toStdString())
+    << R"({"cameras":[{"name":"table","model":"raytable","rays":"rays.npy","width":2,"height":2,"eye":[0,0,5],"lookAt":[0,0,0]}]})";
+  QVERIFY(this->Window->openFile(this->path("table.json")));
+  this->choose("render");
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  activate(*dialog);
+  turnTo(*dialog, 1);
+  const QString said = dialog->findChild<QLabel*>("resolution")->text();
+  QVERIFY2(!said.isEmpty() && !said.contains("no pose"), qPrintable(said));
 }
 
 /// Alt and its letter lead to each field of the dialogs.

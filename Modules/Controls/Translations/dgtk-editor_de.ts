@@ -1501,10 +1501,6 @@
         <translation>%1 Pixel</translation>
     </message>
     <message>
-        <source>none: the ray is a point in the other picture</source>
-        <translation>keine: der Strahl ist im anderen Bild ein Punkt</translation>
-    </message>
-    <message>
         <source>The list of correspondences is not saved.</source>
         <translation>Die Liste der Korrespondenzen ist nicht gespeichert.</translation>
     </message>
@@ -1519,6 +1515,18 @@
     <message>
         <source>Redo</source>
         <translation>Wiederholen</translation>
+    </message>
+    <message>
+        <source>The scene has no view of %1, frame %2, with %3 x %4 pixels.</source>
+        <translation>Die Szene hat keine Ansicht von %1, Bild %2, mit %3 x %4 Pixeln.</translation>
+    </message>
+    <message>
+        <source>none: the ray is a point in the other picture, or at infinity</source>
+        <translation>keine: der Strahl ist im anderen Bild ein Punkt oder im Unendlichen</translation>
+    </message>
+    <message>
+        <source>none: one of the cameras is not linear, or has a rolling shutter</source>
+        <translation>keine: eine der Kameras ist nicht linear oder hat einen Rolling Shutter</translation>
     </message>
 </context>
 <context>

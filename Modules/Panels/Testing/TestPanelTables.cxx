@@ -176,6 +176,39 @@ TEST_F(PanelTables, TheTreeOfAScene)
     textOf(tree), "Objects: renamed/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/camera\n");
 }
 
+TEST_F(PanelTables, ANameThatIsBeingTypedIsTakenBeforeOtherThings)
+{
+  EditorState state(nullptr);
+  SceneTree tree(state, nullptr);
+  std::vector<CameraDescription> cameras(2);
+  cameras[0].name = "eye";
+  cameras[1].name = "other";
+  state.document().edit("all", [&](SceneDescription& scene) { scene.cameras = cameras; });
+  const auto type = [&](const char* name)
+  {
+    tree.rename({ SceneItem::Kind::Camera, 0 });
+    for (QLineEdit* editor : tree.viewport()->findChildren<QLineEdit*>())
+    {
+      editor->setText(editor->isHidden() ? "gone" : name);
+    }
+  };
+  type("far eye");
+  state.finishTyping();
+  EXPECT_EQ(state.scene().cameras[0].name, "far eye");
+  EXPECT_EQ(state.document().undoText(), "Rename");
+  state.finishTyping();
+  std::string failure;
+  QObject::connect(&state, &EditorState::failed, [&](const QString& message) { failure = message.toStdString(); });
+  type("other");
+  state.finishTyping();
+  EXPECT_FALSE(failure.empty()) << "it is taken";
+  EXPECT_EQ(state.scene().cameras[0].name, "far eye");
+  state.document().undo();
+  EXPECT_EQ(state.scene().cameras[0].name, "eye") << "one step";
+  QApplication::processEvents();
+  EXPECT_EQ(textOf(tree), "Objects:\nLights:\nCameras: eye/camera other/camera\n");
+}
+
 /// What a dialog of camera arrays adds, or why not.
 class ArrayDialog
 {

@@ -283,8 +283,11 @@ TEST_F(Properties, WhatIsBeingTypedIsTakenBeforeOtherThings)
 TEST_F(Properties, SequencesOfModels)
 {
   std::filesystem::copy_file(test::sourceFile("Data/Models/creature.md2"), this->Folder.path("crate2.md2"));
-  this->State->document().edit("Model", [](SceneDescription& scene) { scene.objects[0].model = "crate2.md2"; });
   this->select(Kind::Object, 0);
+  EXPECT_EQ(this->rows().find("Sequence"), std::string::npos);
+  EXPECT_NE(this->rows().find("Model | crate.ac"), std::string::npos);
+  this->State->document().edit("Model", [](SceneDescription& scene) { scene.objects[0].model = "crate2.md2"; });
+  EXPECT_NE(this->rows().find("Model | crate2.md2"), std::string::npos) << "it has another one";
   const std::string rows = this->rows();
   EXPECT_EQ(rows.substr(rows.find("Sequence")), R"(Sequence | sequence stand of 3
 Begins at frame | sequenceStart 0
@@ -304,6 +307,29 @@ Repeat | sequenceLoop on
   animation.loop = false;
   EXPECT_EQ(toJson(this->scene(), ""), toJson(wanted, ""));
   EXPECT_EQ(this->field<QComboBox>("sequence")->currentIndex(), 2);
+}
+
+TEST_F(Properties, SequencesComeWithTheirModel)
+{
+  std::ofstream(this->Folder.path("t.json")) << R"({ "objects": [ { "name": "c", "model": "lost.md2" } ] })";
+  this->State->document().open(this->Folder.path("t.json"));
+  this->select(Kind::Object, 0);
+  EXPECT_EQ(this->rows().find("Sequence"), std::string::npos);
+  std::filesystem::copy_file(test::sourceFile("Data/Models/creature.md2"), this->Folder.path("lost.md2"));
+  ModelLibrary models;
+  models.load(this->scene());
+  this->State->document().adopt(models);
+  this->State->document().edit("Other", [](SceneDescription& scene) { scene.fps = 50; });
+  EXPECT_NE(this->rows().find("Sequence | sequence stand of 3"), std::string::npos);
+}
+
+TEST_F(Properties, AParentIsNamedAsItIs)
+{
+  this->State->document().edit("Rename", [](SceneDescription& scene) { renameItem(scene, { Kind::Object, 0 }, "z"); });
+  this->select(Kind::Object, 1);
+  EXPECT_NE(this->rows().find("Parent | z\n"), std::string::npos);
+  this->State->document().undo();
+  EXPECT_NE(this->rows().find("Parent | a\n"), std::string::npos);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The time line's places, and what its mouse and keys do to a scene; on no display.
 #include "dgtkEditorState.h"
+#include "dgtkTimeLine.h"
 #include "dgtkTimeLineCells.h"
 #include "dgtkTimeLineRows.h"
 
@@ -11,6 +12,7 @@
 #include <QApplication>
 #include <QHelpEvent>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QMouseEvent>
 #include <QScrollBar>
 #include <QToolTip>
@@ -30,6 +32,18 @@ using test::crate;
 using test::creature;
 using test::eye;
 using test::lamp;
+
+TEST(TimeLine, ARateThatIsBeingTypedIsTakenBeforeOtherThings)
+{
+  test::needApplication();
+  EditorState state(nullptr);
+  TimeLine line(state, nullptr);
+  line.findChild<QWidget*>("frameRate")->findChild<QLineEdit*>()->setText("30.5");
+  EXPECT_EQ(state.scene().fps, SceneDescription().fps);
+  state.finishTyping();
+  EXPECT_EQ(state.scene().fps, 30.5);
+  EXPECT_EQ(state.document().undoText(), "Change frame rate");
+}
 
 TEST(TimeLineRows, HaveTheirPlaces)
 {

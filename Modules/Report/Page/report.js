@@ -213,12 +213,13 @@ function placeIn(element, block, event) {
   const scale = Math.min(box.width / block.fullWidth, box.height / block.fullHeight);
   return [(event.clientX - box.left - (box.width - block.fullWidth * scale) / 2) / scale - 0.5, (event.clientY - box.top - (box.height - block.fullHeight * scale) / 2) / scale - 0.5];
 }
+const visibleShots = () => shots.filter((shot) => !shot.figure.hidden);
+/** The one that Tab reaches. */
+function tabTo(next) { shots.forEach((shot) => { shot.figure.tabIndex = shot === next ? 0 : -1; }); }
 function focusShot(i) {
-  const visible = shots.filter((shot) => !shot.figure.hidden);
+  const visible = visibleShots();
   const next = visible[Math.min(visible.length - 1, Math.max(0, i))];
-  if (!next) return;
-  shots.forEach((shot) => { shot.figure.tabIndex = -1; });
-  next.figure.tabIndex = 0;
+  tabTo(next);
   next.figure.focus();
 }
 function sheet() {
@@ -243,7 +244,7 @@ function sheet() {
     figure.addEventListener('mouseleave', () => { readOut.turn = (readOut.turn || 0) + 1; say(''); });
     figure.addEventListener('click', () => openView(i, figure));
     figure.addEventListener('keydown', (event) => {
-      const visible = shots.filter((one) => !one.figure.hidden);
+      const visible = visibleShots();
       const here = visible.indexOf(shot);
       const columns = visible.filter((one) => one.figure.offsetTop === visible[0].figure.offsetTop).length;
       const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: columns, ArrowUp: -columns, Home: -here, End: visible.length - 1 - here }[event.key];
@@ -258,6 +259,7 @@ function sheet() {
   at('filter').addEventListener('change', () => {
     const group = [...groups][Number(at('filter').value) - 1];
     for (const shot of shots) shot.figure.hidden = at('filter').value !== '' && (data.many ? sceneName(model.pictures[shot.shown].scene) : model.pictures[shot.shown].camera) !== group;
+    tabTo(visibleShots()[0]);
   });
   if (groups.size < 2) at('filter').parentElement.hidden = true;
   const size = at('size');
@@ -273,13 +275,13 @@ function sheet() {
 }
 
 // ---------------------------------------------------------------- one picture
-const view = { shown: 0, x: 0, y: 0, from: null };
+const view = { shown: 0, x: null, y: null, from: null };
 function openView(shown, from) {
   view.shown = shown;
   view.from = from || view.from;
   const picture = model.pictures[shown];
-  view.x = Math.min(picture.width - 1, view.x || Math.floor(picture.width / 2));
-  view.y = Math.min(picture.height - 1, view.y || Math.floor(picture.height / 2));
+  view.x = Math.min(picture.width - 1, view.x ?? Math.floor(picture.width / 2));
+  view.y = Math.min(picture.height - 1, view.y ?? Math.floor(picture.height / 2));
   at('view-title').textContent = titleOf(picture);
   const frame = at('view-picture');
   frame.style.aspectRatio = `${picture.width} / ${picture.height}`;
@@ -331,7 +333,11 @@ function viewer() {
   };
   frame.addEventListener('pointermove', follow);
   frame.addEventListener('pointerdown', follow);
-  const turn = (step) => openView((view.shown + step + model.pictures.length) % model.pictures.length);
+  const turn = (step) => {
+    let next = view.shown;
+    do next = (next + step + shots.length) % shots.length; while (shots[next].figure.hidden && next !== view.shown);
+    openView(next);
+  };
   frame.addEventListener('keydown', (event) => {
     const step = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] }[event.key];
     const block = blockOf(chosen, view.shown);
@@ -607,6 +613,7 @@ function checks() {
     parts.push(make('p', {}, 'Verification: ', make('span', { class: v.passed ? 'good' : 'bad' }, v.passed ? '✓ passed' : '✗ a breach'), ` – ${many(v.residuals.length, 'residual')}`));
     parts.push(table('Verification', ['check', 'layer', '#values', '#open', '#largest', '#tolerance', 'unit', ''], v.residuals.map((row) => [row.check ?? '', row.layer ?? '', count(row.count ?? 0), count(row.skipped ?? 0), String(row.largest ?? '–'), String(row.tolerance ?? ''), row.unit ?? '',
       make('span', { class: row.breach ? 'bad' : 'good' }, row.breach ? 'breach' : 'ok')])));
+    if (v.unchecked.length > 0) parts.push(table('Not compared by any check', ['layer', 'format', '#files'], v.unchecked.map((row) => [row.layer ?? '', row.format ?? '', count(row.files ?? 0)])));
   } else {
     parts.push(make('p', { class: 'note' }, 'No verification was given.'));
   }
@@ -617,11 +624,11 @@ function checks() {
   if (model.samples) {
     const s = model.samples;
     parts.push(s.reasons.length === 0 ? make('p', {}, `${many(s.samples, 'sample')}; nothing was refused.`)
-      : table(`Refused or left out while sampling: in ${count(s.touched)} of ${many(s.samples, 'sample')}`, ['what', 'why', '#times', 'first in sample'], s.reasons.map((row) => [row.path, row.why, count(row.times), row.example])));
+      : table(`Refused or left out while sampling: in ${count(s.touched)} of ${many(s.samples, 'sample')}${s.reasons.length < s.reasonCount ? `, the first ${s.reasons.length} of ${count(s.reasonCount)} reasons` : ''}`, ['what', 'why', '#times', 'first in sample'], s.reasons.map((row) => [row.path, row.why, count(row.times), row.example])));
   }
   const lines = (title, list, all) => { if (list.length > 0) parts.push(make('div', {}, make('h3', {}, all > list.length ? `${title} (${list.length} of ${count(all)})` : title), make('ul', {}, ...list.map((line) => make('li', {}, line))))); };
   lines('What could not be read', model.notes, model.noteCount);
-  lines('Warnings of the renderer', data.warnings, data.warnings.length);
+  lines('Warnings of the renderer', data.warnings, data.warningCount);
   at('check-list').append(...parts);
 }
 

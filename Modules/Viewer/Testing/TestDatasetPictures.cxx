@@ -104,6 +104,31 @@ TEST(DatasetPictures, DocumentsAreNotNeededForPictures)
   EXPECT_EQ(dataset.camera("left", 0), nullptr);
 }
 
+TEST(DatasetPictures, ALayerIsWhatTheManifestSaysOfItsFormatOrElseOfAnother)
+{
+  LayerSpec whole = depth;
+  whole.unit = "steps";
+  SmallDataset files;
+  for (const char* format : { "dgd", "npy", "pfm" })
+  {
+    files.add("left", "depth", 0, "", format, format == std::string("npy") ? whole : depth, ramp);
+  }
+  const auto unitOf = [&](const std::string& label)
+  {
+    files.finish();
+    return DatasetPictures(files.path()).layer(label)->spec.unit;
+  };
+  EXPECT_EQ(unitOf("depth"), "steps"); // the second of three
+  EXPECT_EQ(unitOf("depth .pfm"), "metre");
+  for (LayerRecord& record : files.Parts.layers)
+  {
+    record.format = "exr"; // no file's
+  }
+  std::swap(files.Parts.layers[0], files.Parts.layers[1]);
+  EXPECT_EQ(unitOf("depth"), "steps"); // the first of them
+  EXPECT_EQ(unitOf("depth .pfm"), "steps");
+}
+
 TEST(DatasetPictures, ListsThatLeadOutsideAreRefused)
 {
   SmallDataset files;

@@ -3,6 +3,7 @@
 #include "dgtkPictureView.h"
 
 #include "dgtkShownPictures.h"
+#include "dgtkTestDataset.h"
 #include "dgtkTestWidgets.h"
 
 #include <QApplication>
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -189,13 +191,32 @@ TEST_F(PictureViewTable, DetailIsAskedForWhereItCanBeSeen)
   this->Sync.changeZoom();
   ASSERT_EQ(asked.size(), 3u);
   EXPECT_TRUE(asked[2].window == (PixelRect{ 0, 0, 100, 60 })) << "no more than there is";
-  // Of another picture there is no detail yet.
-  auto other = makeShown(4000, 2000, 8);
-  other->ask.key.frame = 4;
-  this->View->showDetail(other);
-  EXPECT_EQ(this->View->detail(), detail) << "it does not belong here";
-  this->View->showPicture(other);
-  EXPECT_EQ(this->View->detail(), nullptr);
+  // Of another picture, and in other colours, there is no detail yet.
+  test::SmallDataset folder;
+  const LayerSpec spec{ "depth", PixelType::Float64, 1, "", "", "none", "", Meaning::Depth };
+  folder.add("left", "depth", 0, "", "npy", spec, [](int, int, int) { return 1; });
+  folder.finish();
+  const auto dataset = std::make_shared<const DatasetPictures>(folder.path());
+  const std::function<void(ShownPicture&)> changes[] = { [](ShownPicture& other) { other.ask.key.frame = 4; },
+    [](ShownPicture& other) { other.ask.surface = 1; },
+    [](ShownPicture& other) {
+      other.ask.range = PictureRange{ 2, 5 };
+    },
+    [&](ShownPicture& other) { other.dataset = dataset; } };
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    this->View->showPicture(makeShown(4000, 2000, 8));
+    this->View->showDetail(detail);
+    EXPECT_EQ(this->View->detail(), detail) << i;
+    auto other = makeShown(4000, 2000, 8);
+    changes[i](*other);
+    this->View->showDetail(other);
+    EXPECT_EQ(this->View->detail(), detail) << "it does not belong here: " << i;
+    asked.clear();
+    this->View->showPicture(other);
+    EXPECT_EQ(this->View->detail(), nullptr) << i;
+    EXPECT_EQ(asked.size(), 1u) << i;
+  }
 }
 
 TEST_F(PictureViewTable, PixelsAreReadWhereTheyAreExact)
