@@ -2,7 +2,8 @@
 """Pages of man(7), from rows."""
 
 STATUS = (("0", "everything asked for was done"), ("1", "a check found a difference"), ("2", "wrong usage"),
-          ("3", "input that cannot be used"), ("4", "the machine cannot do it, or the run was interrupted"))
+          ("3", "input that cannot be used"), ("4", "the machine cannot do it"),
+          ("75", "the run was interrupted, or another process is at work on it: the same command may be tried again"))
 
 
 def text(words):

@@ -111,20 +111,32 @@ Json infoOf(const Arguments& arguments)
 {
   const std::string& path = arguments.positional()[0];
   std::error_code code; // what cannot be asked is told when it is read
-  if (std::filesystem::is_directory(path, code))
+  const bool folder = std::filesystem::is_directory(path, code);
+  const bool manifest = !folder && std::filesystem::path(path).filename() == "manifest.json";
+  const bool scene = !folder && !manifest && (extensionOf(path) == "scene" || extensionOf(path) == "json");
+  const bool random = scene && isRandomScene(path);
+  if (scene && !random)
+  {
+    return infoOfScene(path, arguments);
+  }
+  for (const char* const option : { "--size", "--surfaces" })
+  {
+    if (arguments.has(option))
+    {
+      throw UsageError(std::string(option) + (random ? " is for a scene without random values" : " is for a scene"));
+    }
+  }
+  if (folder)
   {
     requireDataset(path);
     return infoOfDataset(path);
   }
-  if (std::filesystem::path(path).filename() == "manifest.json")
+  if (manifest)
   {
-    return infoOfDataset(std::filesystem::path(path).parent_path().string());
+    const std::string parent = std::filesystem::path(path).parent_path().string();
+    return infoOfDataset(parent.empty() ? "." : parent);
   }
-  if (extensionOf(path) == "scene" || extensionOf(path) == "json")
-  {
-    return isRandomScene(path) ? infoOfRandomScene(path) : infoOfScene(path, arguments);
-  }
-  return infoOfModel(path);
+  return random ? infoOfRandomScene(path) : infoOfModel(path);
 }
 
 int runInfo(const Arguments& arguments)

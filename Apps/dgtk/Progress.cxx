@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include <unistd.h>
 
@@ -54,8 +55,9 @@ std::string duration(double seconds)
 }
 } // namespace
 
-Progress::Progress(bool quiet)
+Progress::Progress(bool quiet, std::string unit)
   : Quiet(quiet)
+  , Unit(std::move(unit))
   , Terminal(::isatty(STDERR_FILENO) == 1)
   , Interval(Terminal ? std::chrono::nanoseconds(barInterval) : askedInterval())
   , Start(std::chrono::steady_clock::now())
@@ -94,7 +96,7 @@ void Progress::message(const std::string& line)
   }
 }
 
-void Progress::update(std::size_t done, std::size_t total)
+void Progress::update(std::size_t done, std::size_t total, std::size_t kept)
 {
   const auto now = std::chrono::steady_clock::now();
   if (this->Quiet || total == 0 || (now - this->Last < this->Interval && (done < total || !this->Terminal)))
@@ -102,10 +104,10 @@ void Progress::update(std::size_t done, std::size_t total)
     return;
   }
   this->Last = now;
-  const double rate = done / std::max(this->seconds(), 1e-9);
-  const std::string state = std::to_string(done) + '/' + std::to_string(total) + " pictures, " +
+  const double rate = (done - kept) / std::max(this->seconds(), 1e-9);
+  const std::string state = std::to_string(done) + '/' + std::to_string(total) + ' ' + this->Unit + ", " +
                             std::to_string(rate).substr(0, 5) + "/s, " +
-                            (done ? duration((total - done) / rate) : std::string("?")) + " left";
+                            (done > kept ? duration((total - done) / rate) : std::string("?")) + " left";
   if (!this->Terminal)
   {
     std::fprintf(stderr, "%s\n", state.c_str());

@@ -14,12 +14,14 @@ namespace dgtk::app
 class Progress
 {
 public:
-  explicit Progress(bool quiet);
+  /// `unit`: what is counted, in the plural.
+  explicit Progress(bool quiet, std::string unit = "pictures");
   ~Progress(); ///< ends the bar's line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void update(std::size_t done, std::size_t total);
+  /// `kept`: those of `done` that were there before; the rate is that of the others.
+  void update(std::size_t done, std::size_t total, std::size_t kept = 0);
   /// A line that does not disturb the bar.
   void message(const std::string& line);
   double seconds() const;
@@ -27,6 +29,7 @@ public:
 private:
   void clear();
   bool Quiet;
+  std::string Unit;
   bool Terminal;
   std::chrono::nanoseconds Interval;
   bool Drawn = false;

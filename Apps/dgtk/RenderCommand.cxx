@@ -156,10 +156,10 @@ int render(const Arguments& arguments)
   {
     keepWorkTimes();
   }
-  Progress progress(arguments.has("--quiet"));
+  Progress progress(arguments.has("--quiet"), namesScenes(request) ? "scenes" : "pictures");
   GeneratorCallbacks callbacks;
   callbacks.cancel = &interrupted;
-  callbacks.progress = [&](const GeneratorProgress& state) { progress.update(state.done, state.total); };
+  callbacks.progress = [&](const GeneratorProgress& state) { progress.update(state.done, state.total, state.kept); };
   callbacks.message = [&](const std::string& line) { progress.message(line); };
   std::optional<RunShard> shard;
   if (arguments.has("--shard"))

@@ -31,7 +31,7 @@ int runReport(const Arguments& arguments)
   }
   request.shown = countOf(arguments, "--pictures");
   request.read = countOf(arguments, "--read");
-  request.read = request.read == 0 ? 0 : std::max(request.read, request.shown);
+  request.read = request.read == 0 || request.shown == 0 ? 0 : std::max(request.read, request.shown); // 0: all
   request.seed = std::uint64_t(arguments.integer("--seed", 0, mostPictures));
   request.threads = arguments.threads();
   request.verification = arguments.text("--verification");

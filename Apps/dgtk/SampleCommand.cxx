@@ -62,7 +62,7 @@ SampleRequest parseSampleRequest(const Arguments& arguments)
 int runSample(const Arguments& arguments)
 {
   const SampleRequest request = parseSampleRequest(arguments);
-  Progress progress(arguments.has("--quiet"));
+  Progress progress(arguments.has("--quiet"), "samples");
   SampleCallbacks callbacks;
   callbacks.cancel = &catchInterrupts();
   callbacks.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };

@@ -87,8 +87,9 @@ RunShard parseShard(const std::string& text)
   {
     return *array;
   }
-  for (const auto& [rank, size] : { std::pair{ "SLURM_PROCID", "SLURM_NTASKS" },
-         std::pair{ "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE" }, std::pair{ "PMI_RANK", "PMI_SIZE" } })
+  // mpirun within a job of Slurm: all of its processes inherit one SLURM_PROCID
+  for (const auto& [rank, size] : { std::pair{ "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE" },
+         std::pair{ "PMI_RANK", "PMI_SIZE" }, std::pair{ "SLURM_PROCID", "SLURM_NTASKS" } })
   {
     const std::optional<std::size_t> index = variable(rank);
     const std::optional<std::size_t> count = variable(size);

@@ -9,8 +9,8 @@
 namespace dgtk::app
 {
 
-/// "I/N", or "auto": as the launcher's environment says it, of Slurm's array jobs (SLURM_ARRAY_TASK_ID), srun
-/// (SLURM_PROCID), Open MPI (OMPI_COMM_WORLD_RANK) or others with PMI (PMI_RANK), whichever is there first. Throws
+/// "I/N", or "auto": as the launcher's environment says it, of Slurm's array jobs (SLURM_ARRAY_TASK_ID), Open MPI
+/// (OMPI_COMM_WORLD_RANK), others with PMI (PMI_RANK) or srun (SLURM_PROCID), whichever is there first. Throws
 /// UsageError.
 RunShard parseShard(const std::string& text);
 

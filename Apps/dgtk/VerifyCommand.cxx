@@ -92,6 +92,11 @@ int runVerify(const Arguments& arguments)
     folder.pop_back();
   }
   const int threads = arguments.threads();
+  const std::string exported = arguments.text("--export");
+  if (!exported.empty() && (arguments.has("--check") || arguments.has("--write")))
+  {
+    throw UsageError("--export: an export has neither checks to choose nor a file for what was found");
+  }
   const bool samples = verification().isSampleFolder(folder);
   if (samples && (arguments.has("--check") || arguments.has("--export")))
   {
@@ -104,7 +109,6 @@ int runVerify(const Arguments& arguments)
   }
   const std::vector<std::string> checks =
     arguments.has("--check") ? arguments.list("--check") : std::vector<std::string>{};
-  const std::string exported = arguments.text("--export");
   if (!scenes.empty() && exported.empty())
   {
     if (arguments.has("--write"))
@@ -116,7 +120,7 @@ int runVerify(const Arguments& arguments)
   const VerificationReport report = samples            ? verification().verifySamples(folder)
                                     : exported.empty() ? verification().verifyDataset(folder, threads, checks)
                                                        : verification().verifyExport(folder, exported, threads);
-  if (arguments.has("--write") && exported.empty())
+  if (arguments.has("--write"))
   {
     writeFile(folder + "/verification.json", verification().text(report));
   }

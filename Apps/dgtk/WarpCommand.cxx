@@ -7,6 +7,7 @@
 #include "dgtkFile.h"
 #include "dgtkJson.h"
 #include "dgtkLdi.h"
+#include "dgtkText.h"
 #include "dgtkWarp.h"
 
 #include <Eigen/Geometry>
@@ -61,22 +62,64 @@ void readLens(const JsonCursor& at, const std::string& path, CameraRecord& camer
   }
 }
 
+/// Of a camera file, and of an entry of cameras.json, which has a distortion whatever its model.
+void checkKeys(const JsonCursor& at, const CameraRecord& camera)
+{
+  std::vector<std::string> known{ "name", "frame", "width", "height", "R", "t", "model", "near", "far",
+    "rollingShutter" };
+  if (camera.hasK)
+  {
+    known.emplace_back("K");
+  }
+  for (const CameraParameter& parameter : findCamera(camera.model)->parameters)
+  {
+    if (parameter.kind != CameraParameter::Kind::Matrix && !parameter.saidByK)
+    {
+      known.push_back(parameter.name);
+    }
+  }
+  for (std::size_t i = 0; i < at.memberCount(); ++i)
+  {
+    const bool none = at.key(i) == "distortion" && at.member(i).node().type == JsonNode::Type::Array &&
+                      at.member(i).node().children.empty();
+    if (!none && std::find(known.begin(), known.end(), at.key(i)) == known.end())
+    {
+      at.member(i).fail("is an unknown key", "one of " + joined(known));
+    }
+  }
+}
+
 /// A camera file: R, t, width, height and, where given, model, near and far; K and what else the model has.
 CameraRecord readCameraFile(const std::string& path)
 {
   static constexpr Range side{ 1, 65536, false, false, "a whole number from 1 to 65536" };
+  static constexpr Range distance{ 0, anyNumber.most, true, false, "a number above 0" };
+  static constexpr Range frames{ 0, 1000, false, false, "frames from 0 to 1000" };
   const JsonDocument document = parseJson(path, readFile(path, largestDocument));
   const JsonCursor at(document);
   CameraRecord camera;
   camera.name = path;
   camera.model = at.has("model") ? at["model"].text() : camera.model;
   readLens(at, path, camera);
+  if (findCamera(camera.model))
+  {
+    checkKeys(at, camera);
+  }
   camera.R = at["R"].matrix<Eigen::Matrix3d>();
   camera.t = at["t"].matrix<Eigen::Vector3d>();
   camera.width = static_cast<int>(at["width"].wholeNumber(side));
   camera.height = static_cast<int>(at["height"].wholeNumber(side));
-  camera.near = at.has("near") ? at["near"].number() : 1e-6;
-  camera.far = at.has("far") ? at["far"].number() : std::numeric_limits<double>::max();
+  camera.near = at.has("near") ? at["near"].number(distance) : 1e-6;
+  // null: infinity, which JSON has not
+  camera.far = at.has("far") && !at["far"].isNull() ? at["far"].number() : std::numeric_limits<double>::max();
+  if (camera.far <= camera.near)
+  {
+    at["far"].fail("is not beyond near", "more than " + plainNumber(camera.near), plainNumber(camera.far));
+  }
+  if (at.has("rollingShutter"))
+  {
+    camera.rollingShutter.duration = at["rollingShutter"]["duration"].number(frames);
+  }
   const Eigen::Matrix3d error = camera.R * camera.R.transpose() - Eigen::Matrix3d::Identity();
   if (error.cwiseAbs().maxCoeff() > 1e-6 || camera.R.row(0).cross(camera.R.row(1)).dot(camera.R.row(2)) < 0)
   {
@@ -208,6 +251,21 @@ void save(const std::string& path, const WarpedImage& image, const std::vector<s
   writer->finish();
 }
 
+/// Neither picture is the other one, or the image that is read.
+void checkNames(const std::string& ldi, const std::string& picture, const std::string& mask)
+{
+  namespace fs = std::filesystem;
+  const auto same = [](const std::string& a, const std::string& b)
+  {
+    std::error_code code; // where one is not there
+    return fs::equivalent(a, b, code) || fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal();
+  };
+  if (same(picture, ldi) || (!mask.empty() && (same(mask, ldi) || same(mask, picture))))
+  {
+    throw UsageError("the picture, its mask and the layered depth image need names of their own");
+  }
+}
+
 int runWarp(const Arguments& arguments)
 {
   const std::string output = arguments.text("--output");
@@ -217,6 +275,7 @@ int runWarp(const Arguments& arguments)
   }
   const int layers = arguments.integer("--layers", 0, 1 << 30);
   const Source source = locate(arguments.positional()[0]);
+  checkNames(source.path, output, arguments.text("--mask"));
   LdiReader file(source.path);
   const std::vector<CameraRecord> cameras = readCameras(source.cameras);
   const View from = viewOf(find(cameras, source.camera, source.frame, source.cameras), source.cameras);

@@ -274,6 +274,8 @@ class Documents(Case):
         self.assertEqual(list(found["animations"][0]), ["name", "first", "last", "fps"])
         self.assertEqual((found["frames"], found["animations_beside"], found["textures"]),
                          (34, [], [{"name": "models/creature/creature.png", "found": True}]))
+        for option in (("--size", "4x3"), ("--surfaces",)):
+            self.assertEqual(self.refused("info", path, *option, status=2), f"dgtk: {option[0]} is for a scene")
         empty = self.write("empty.ac", "AC3Db\nOBJECT world\nkids 0\n")
         self.assertEqual(json.loads(self.dgtk("info", empty, "--json").stdout)["bounds"], None)
 
@@ -285,6 +287,10 @@ class Documents(Case):
         self.assertEqual((found["first_frame"], found["last_frame"], found["frames"]), (1, 2, 2))
         self.assertEqual(self.dgtk("info", out).stdout, told(document(self.dgtk("info", out, "--json").stdout)))
         self.assertEqual(self.dgtk("info", os.path.join(out, "manifest.json")).stdout, self.dgtk("info", out).stdout)
+        here = [subprocess.run([DGTK, "info", name], cwd=out, capture_output=True, text=True, timeout=60) for name in ("manifest.json", ".")]
+        self.assertEqual([(one.returncode, one.stdout) for one in here], 2 * [(0, here[1].stdout)], here[0].stderr)
+        for name in (out, os.path.join(out, "manifest.json")):
+            self.refused("info", name, "--surfaces", status=2, says="--surfaces is for a scene")
         self.refused("info", self.folder, status=3, says=f"{self.folder}: is not a dataset (expected a folder with manifest.json)")
 
     def test_points_in_another_view(self):
@@ -307,6 +313,18 @@ class Documents(Case):
         behind = json.loads(self.dgtk("correspond", self.scene, "--from", "a", "--to", "back@2", "--points", self.points, "--json").stdout)
         self.assertEqual([(m["to"], m["class"], m["visibility"]) for m in behind["matches"]],
                          [(None, 5, "behind")] * 4 + [(None, 0, "no surface")])
+
+    def late(self):
+        """The scene, two frames of which the first is 3."""
+        with open(self.scene, encoding="utf-8") as file:
+            scene = json.load(file)
+        for name, x in (("eye", [[3, [1, 0, 5]], [5, [3, 0, 5]]]), ("lookAt", [[3, [1, 0, 0]], [5, [3, 0, 0]]])):
+            scene["cameras"][1][name] = {"keys": x}
+        return self.write("late.json", json.dumps(scene))
+
+    def test_views_are_at_the_first_frame(self):
+        lines = self.dgtk("correspond", self.late(), "--from", "a", "--to", "b", "--points", self.points).stdout.splitlines()
+        self.assertEqual(lines[:2], ["# from a@3 40x20", "# to b@3 20x20"])
 
     def test_views_and_points_that_are_refused(self):
         words = ("correspond", self.scene)
@@ -349,6 +367,9 @@ class Documents(Case):
         self.assertNotEqual(first[1:], other[1:])
         self.assertNotEqual(other[1:], place("--camera", "b")[1:])
         self.assertNotEqual(first[1:], place("--flat-ids")[1:])
+        self.assertEqual((first.count("  no_shadow"), place("--shadows").count("  no_shadow")), (2, 0))
+        self.dgtk("convert", self.late(), self.path("late.pov"))
+        self.assertEqual(self.lines("late.pov")[0], "// Camera 'a', frame 3.")
 
     def lines(self, name):
         with open(self.path(name), encoding="utf-8") as file:

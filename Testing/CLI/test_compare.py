@@ -3,6 +3,8 @@
 import json
 import os
 import shutil
+import struct
+import zlib
 
 import numpy
 from harness import SCENES, Case, main
@@ -90,6 +92,30 @@ class Tolerances(Case):
         self.assertIn("within the tolerance (0 by more than 1, at most 0)", self.dgtk("compare", *files, "--tolerance", "value=1").stdout)
         self.assertIn("beyond the tolerance (", self.dgtk("compare", *files, "--tolerance", "pixels=1", status=1).stdout)
         self.refused("compare", *files, "--tolerance", "depth:value=1", status=2, says="two files have no layers")
+
+    def test_pictures_that_no_layer_has(self):
+        """With a palette, as exports and textures are: their bytes decide."""
+        def chunk(kind, body):
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        names = [self.path(name) for name in ("one.png", "same.png", "other.png")]
+        for name, index in zip(names, b"\0\0\1"):
+            with open(name, "wb") as file:
+                file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 3, 0, 0, 0)) +
+                           chunk(b"PLTE", bytes(6)) + chunk(b"IDAT", zlib.compress(bytes([0, index]))) + chunk(b"IEND", b""))
+        self.dgtk("compare", names[0], names[1])
+        self.assertIn("the bytes differ", self.dgtk("compare", names[0], names[2], status=1).stdout)
+        layer = os.path.join(self.one, "left", "color", "000000.png")
+        self.refused("compare", names[0], layer, status=3, says="one.png")
+
+    def test_folders_of_other_scenes(self):
+        os.mkdir(self.path("scenes"))
+        for number, name in enumerate("ab"):
+            self.write(f"scenes/{name}.json", json.dumps({"objects": [], "cameras": [{"eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}))
+            self.dgtk("render", self.path("scenes"), "-o", self.path(f"{number + 1}"), "--layers", "depth", "--size", "8x6", "--quiet")
+        for one, other in ("12", "21"):
+            said = self.dgtk("compare", self.path(one), self.path(other), status=1).stdout
+            self.assertEqual(said, f"{self.path(one)} and {self.path(other)}: the scenes differ\n")
+        self.dgtk("compare", self.path("2"), self.path("2"))
 
     def test_wrong_usage(self):
         for wrong in ("color", "color:", "color:2", "color:value", "color:value=", "color:value=-1", "color:value=nan", "color:share=1.1",

@@ -174,6 +174,16 @@ class MovedDisparities(Case):
             found = self.load("left", layer, 1)[still]
             np.testing.assert_allclose(found, 100 * 0.12 / (depth[still] + step), rtol=1e-12)
 
+    def test_of_partners_as_near_it_is_the_first(self):
+        """The one on the left sees surfaces further right: what is outside its picture leaves it there."""
+        self.render([rig("left", -0.12), rig("middle", 0), rig("right", 0.12)], "--frames", "0", layers="disparity,depth")
+        depth = self.load("middle", "depth", 0)
+        beyond = np.arange(96) + 0.5 + 100 * 0.12 / depth - 96
+        sure = np.isfinite(depth) & (abs(beyond) > 1e-9)
+        outside = self.classes("middle", "disparity", 0) == 4
+        self.assertTrue((outside == (beyond > 0))[sure].all())
+        self.assertGreater(outside.sum(), 50)
+
     def test_where_there_is_none(self):
         self.render([rig("left", 0), rig("right", 0.12)], "--frames", "0", layers="disparity,disparity_forward")
         self.assertEqual(self.files("disparity_forward"), ["000000.npy", "000000.pfm", "000000.png"])

@@ -86,12 +86,15 @@ class Scenes(Case):
             "lights": [{"name": "sun", "kind": "directional", "position": [0, 1, 0]}, {"name": "lamp", "enabled": False},
                        {"name": "head", "kind": "head"}, {"name": "cone", "kind": "spot", "position": [0, 1, 0]}],
             "cameras": [{"name": "c", "width": 64, "height": 48, "near": 1, "far": 50, "lookAt": [0, 0, 0],
-                         "eye": {"keys": [[3, [0, 0, 5]], [7, [0, 0, 9]]]}}]}))
+                         "eye": {"keys": [[3, [0, 0, 5]], [7, [0, 0, 9]]]}},
+                        {"name": "rolling", "eye": [0, 0, 5], "lookAt": [0, 0, 0], "rollingShutter": {"duration": 0.25, "direction": "left"}}]}))
         found = json.loads(self.dgtk("info", scene, "--json").stdout)
         self.assertEqual((found["first_frame"], found["last_frame"], found["key_frames"]), (3, 7, [3, 7]))
         camera = found["cameras"][0]
         self.assertEqual((camera["t"], camera["R"]), ([0, 0, 5], [[1, 0, 0], [0, -1, 0], [0, 0, -1]]))
         self.assertEqual([camera[key] for key in ("name", "model", "width", "height", "near", "far")], ["c", "pinhole", 64, 48, 1, 50])
+        self.assertNotIn("rollingShutter", camera)
+        self.assertEqual(found["cameras"][1]["rollingShutter"], {"duration": 0.25, "direction": "left"})
         self.assertEqual([(light["name"], light["kind"], light["enabled"]) for light in found["lights"]],
                          [("sun", "directional", True), ("lamp", "point", False), ("head", "head", True), ("cone", "spot", True)])
         self.assertEqual(found["objects"], [{"id": 1, "name": "o", "class": "thing", "class_id": 1, "model": self.path("q.obj"),

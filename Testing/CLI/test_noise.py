@@ -112,6 +112,39 @@ class Noise(Case):
         self.assertTrue((depth["range"][there] >= 2.9).all() and (depth["range"][there] <= 3.2).all())
         self.near(there.mean(), 0.841345 - (1 - 0.977250))  # from one deviation below to two above
 
+    def test_rays_and_focal_lengths_are_those_of_the_lens(self):
+        """A wide camera over a floor that it sees from the side: angles are those of its rays, which get longer to the border."""
+        width, height = 96, 64
+        common = {"width": width, "height": height, "fovY": 60, "eye": [0, 1, 0.4], "lookAt": [0, 0, 0]}
+        cameras = [{**common, "name": "color", "sensor": linear(vignetting={"cos4": 1})},
+                   {**common, "name": "grazing", "sensor": {"depth": {"dropout": {"grazing": 1, "grazingAngle": 35}}}},
+                   {**common, "name": "stereo", "aspect": 2, "sensor": {"depth": {"stereo": {"baseline": 0.1, "subpixel": 0.125}}}}]
+        cameras[0].update(lookAt=[0, 2, 0.4], up=[0, 0, 1])  # where there is the background only
+        out = self.render(self.scene("a.json", cameras, objects=[{"model": FLOOR}]), "out", "--layers", "color_noisy,depth,depth_noisy",
+                          "--color-bits", "16")
+        focal = height / 2 / np.tan(np.radians(30))
+        y, x = np.mgrid[0:height, 0:width] + 0.5
+        rays = np.stack([(x - width / 2) / focal, (y - height / 2) / focal, np.ones(x.shape)], axis=-1)
+        length = np.linalg.norm(rays, axis=-1)
+        read = lambda name: [np.load(os.path.join(out, name, layer, "000000.npy")) for layer in ("depth", "depth_noisy")]
+        with self.subTest("vignetting"):
+            self.assertLess(abs(self.color(out, "color") - length[..., None] ** -4).max(), 1e-4)
+        with self.subTest("grazing"):
+            normal = np.array([0, -0.4, -1]) / np.hypot(0.4, 1)  # the floor's, in the camera's axes: x right, y down
+            angle = np.degrees(np.arccos(-(rays @ normal) / length))
+            exact, seen = read("grazing")
+            self.assertTrue(np.isfinite(exact).all())
+            sure = abs(angle - 35) > 1e-3
+            self.assertTrue((np.isfinite(seen) == (angle <= 35))[sure].all())
+            self.assertTrue(0.1 < np.isfinite(seen).mean() < 0.9)
+        with self.subTest("stereo"):
+            exact, seen = read("stereo")
+            scale = width / (2 * 2 * np.tan(np.radians(30))) * 0.1 / 0.125  # fx of a view twice as wide as high, steps
+            steps = scale / seen
+            self.assertLess(abs(steps - np.rint(steps)).max(), 1e-9)
+            self.assertLess(abs(steps - scale / exact).max(), 0.5 + 1e-9)
+            self.assertGreater(len(np.unique(np.rint(steps))), 3)
+
     def test_what_the_right_camera_cannot_see_is_what_rays_say(self):
         scene = load_json(os.path.join(SCENES, "fig_4_7_stereo.json"))  # parallel cameras 0.12 apart
         for item in scene["objects"]:

@@ -146,6 +146,7 @@ class Pages(Case):
         self.assertEqual(sorted(["dgtk.1.gz", "dgtk-editor.1.gz"] + [f"dgtk-{row['command']}.1.gz" for row in commands]),
                          sorted(os.listdir(unpacked("share", "man", "man1"))))
         overview = self.page("dgtk")
+        self.assertIn("4 The machine cannot do it. 75 The run was interrupted, or another process is at work on it: ", overview)
         for row in commands:
             self.assertIn(f"dgtk-{row['command']}(1) {row['help']}", overview)
             page = self.page("dgtk-" + row["command"])

@@ -27,11 +27,21 @@ class Samples(Case):
         self.assertNotEqual(dgtk.sample(path, 7, seed=6), written)
         self.assertEqual(dgtk.scene(dgtk.sample(path, 7)).cameras, [])
         self.assertEqual(written["lights"][0]["intensity"], 2 + 2 * dgtk.random(5, 7, "lights/sun/intensity"))
+        self.assertEqual(dgtk.sample(path, numpy.int8(7), seed=numpy.uint64(2**53 - 1)), dgtk.sample(path, 7, seed=2**53 - 1))
+        self.assertEqual(dgtk.random(numpy.int64(5), 7, "a"), dgtk.random(5, 7, "a"))
+
+    def test_relative_paths_start_in_the_folder(self):
+        os.mkdir(self.path("m"))
+        self.write("m/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        drawn = dgtk.sample({"objects": [{"name": "o", "model": {"choice": {"files": "m/*.obj"}}}]}, 0, folder=self.folder)
+        self.assertEqual(os.path.realpath(drawn["objects"][0]["model"]), os.path.realpath(self.path("m/a.obj")))
 
     def test_refusals(self):
         wrong = {"lights": [{"name": "l", "intensity": {"uniform": [2, 1]}}]}
         for call, says in ((lambda: dgtk.sample(wrong, 0), r"lights\[0\].intensity.uniform is empty"), (lambda: dgtk.sample(self.SCENE, -1), "number: "),
                            (lambda: dgtk.sample(self.SCENE, 1.5), "number: "), (lambda: dgtk.sample(self.SCENE, 0, seed=-1), "seed: "),
+                           (lambda: dgtk.sample(self.SCENE, 0, seed=2**53), r"seed: expected an integer from 0 to 2\*\*53 - 1, found 9007199254740992"),
+                           (lambda: dgtk.sample(self.SCENE, 0, seed=numpy.True_), "seed: "), (lambda: dgtk.random(2.0, 0, "a"), "seed: "),
                            (lambda: dgtk.sample("a.json", 0, folder="."), "folder: "), (lambda: dgtk.random(0, -1, "a"), "sample: "),
                            (lambda: dgtk.random(0, 0, ""), "path: "), (lambda: dgtk.random(0, 0, "a", -1), "draw: "), (lambda: dgtk.sample(3, 0), "scene: ")):
             with self.assertRaisesRegex(ValueError, says):
@@ -136,6 +146,19 @@ class Scenes(Case):
         with self.assertRaisesRegex(ValueError, "model files are missing"):
             dgtk.scene(first.description(), folder=first.folder)
 
+    def test_each_picture_is_asked_for_anew(self):
+        description, kept = square(), dgtk.dgtkRenderer()
+        description["cameras"][0]["eye"] = {"keys": [[3, [0, 3, 4]], [7, [0, 5, 4]]]}
+        description["cameras"].append({"name": "flat", "model": "orthographic", "eye": [0, 3, 4], "lookAt": [0, 0, 0]})
+        scene = dgtk.scene(description)
+        fresh = dgtk.render(scene, "color", frame=3, size=SIZE)
+        smooth = dgtk.render(scene, "color", frame=3, size=SIZE, samples=4, keep=kept)
+        self.assertTrue((smooth != fresh).any())
+        numpy.testing.assert_array_equal(dgtk.render(scene, "color", frame=3, size=SIZE, keep=kept), fresh)
+        numpy.testing.assert_array_equal(dgtk.render(scene, "color", size=SIZE), fresh, "the first frame")
+        self.assertLess({"K", "R", "t"}, set(dgtk.render(scene, "calibration", frame=3)))
+        self.assertEqual(set(dgtk.render(scene, "calibration", camera="flat", frame=3)), {"thesis_K", "thesis_Rt", "viewport"})
+
     def test_a_scene_can_be_pickled(self):
         again = pickle.loads(pickle.dumps(dgtk.load(DEMO)))
         self.assertEqual(type(again), dgtk.Scene)
@@ -172,6 +195,20 @@ class Datasets(Case):
             self.assert_same_files(self.path("command"), self.path(name))
         with open(self.path("path", "manifest.json"), encoding="utf-8") as file:
             self.assertEqual(json.load(file), manifest)
+
+    def test_an_export_is_that_of_the_command(self):
+        self.by_python("dataset", layers="color", cameras="left")
+        self.dgtk("export", self.path("dataset"), "--format", "imagefolder", "-o", self.path("command"), "--frames", "0:2:2", "--quiet")
+        dgtk.export(self.path("dataset"), "imagefolder", self.path("python"), frames=(0, 2, 2))
+        self.assert_same_files(self.path("command"), self.path("python"))
+
+    def test_formats_of_exports(self):
+        listed = json.loads(self.dgtk("list", "exporters", "--json").stdout)["exporters"]
+        known = dgtk.exporters()
+        self.assertEqual({name: (",".join(layers), text) for name, (layers, text) in known.items()},
+                         {row["format"]: (row["layers"], row["description"]) for row in listed})
+        self.assertEqual(known["gltf"][0], [])
+        self.assertEqual(known["tum"][0], ["color", "depth"])
 
     def test_the_usual_layers_and_all_frames(self):
         self.dgtk("render", DEMO, "-o", self.path("command"), "--quiet", "--size", "32x24")

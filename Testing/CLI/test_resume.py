@@ -2,6 +2,7 @@
 """An interrupted run is completed by --resume, and ends in the bytes of an uninterrupted one."""
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -14,23 +15,17 @@ OPTIONS = ("--quiet", "--layers", "color,depth,objects,calibration", "--size", "
 
 
 class Resume(Case):
-    def interrupted(self, folder, how, options=OPTIONS, files=12):
-        """Starts a run and sends `how` as soon as more than so many files are there."""
-        process = subprocess.Popen([DGTK, "render", SCENE, "-o", folder, *options], stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 120
-        while time.monotonic() < deadline and process.poll() is None:
-            if sum(len(names) for _, _, names in os.walk(folder)) > files:
-                process.send_signal(how)
-                break
-            time.sleep(0.002)
-        _, errors = process.communicate(timeout=120)
-        return process.returncode, errors
+    def interrupt(self, folder, how, options=OPTIONS, files=12):
+        """Starts a run and sends `how` as soon as more than so many files are there; returns its exit status and what it said."""
+        return self.interrupted(["render", SCENE, "-o", folder, *options], folder, how,
+                                lambda: sum(len(names) for _, _, names in os.walk(folder)) > files)
 
-    def unfinish(self, folder):
-        """Makes of a dataset what a run that was killed leaves, without the last file."""
+    def unfinish(self, folder, lost=1):
+        """Makes of a dataset what a run that was killed leaves, without the last files."""
         manifest = load_json(os.path.join(folder, "manifest.json"))
         files = [f for f in manifest["files"] if "frame" in f]
-        os.remove(os.path.join(folder, files.pop()["path"]))
+        for _ in range(lost):
+            os.remove(os.path.join(folder, files.pop()["path"]))
         for name in ("manifest.json", "cameras.json", "objects.json", "poses.json", "scene.json"):
             os.remove(os.path.join(folder, name))
         with open(os.path.join(folder, ".dgtk-journal"), "w", encoding="utf-8") as journal:
@@ -43,7 +38,7 @@ class Resume(Case):
         for how in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGKILL):
             with self.subTest(how):
                 folder = self.path(how.name)
-                status, errors = self.interrupted(folder, how)
+                status, errors = self.interrupt(folder, how)
                 if how != signal.SIGKILL:
                     self.assertEqual(status, 75, errors)
                     self.assertIn("--resume", errors)
@@ -60,7 +55,7 @@ class Resume(Case):
         """A large picture is not waited for."""
         options = ("--quiet", "--layers", "color,depth", "--size", "256x36000", "--tile", "256x16", "--frames", "0:0")
         folder = self.path("part")
-        status, errors = self.interrupted(folder, signal.SIGINT, options, 1)
+        status, errors = self.interrupt(folder, signal.SIGINT, options, 1)
         self.assertEqual(status, 75, errors)
         self.assertEqual([n for n in digests(folder) if n.endswith((".png", ".npy", ".exr"))], [])
         self.dgtk("render", SCENE, "-o", folder, *options, "--resume")
@@ -80,9 +75,46 @@ class Resume(Case):
         self.dgtk("render", SCENE, "-o", self.path("whole"), *options)
         self.assert_same_files(self.path("whole"), folder)
 
+    def test_pictures_that_are_kept_do_not_count_in_the_rate(self):
+        self.write("quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        scene = self.write("s.json", json.dumps({"keyFrames": [0, 199], "objects": [{"model": "quad.obj"}],
+                                                 "cameras": [{"name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}))
+        render = ("render", scene, "-o", self.path("d"), "--layers", "depth", "--size", "16x12")
+        self.dgtk(*render, "--quiet")
+        self.unfinish(self.path("d"), 100)
+        said = self.dgtk(*render, "--resume", environment={"DGTK_PROGRESS": "0.01"}).stderr
+        told = [(int(done), float(rate)) for done, rate in re.findall(r"(?m)^(\d+)/200 pictures, ([\d.]+)/s, \S+ left$", said)]
+        self.assertEqual(told[0], (0, 0))
+        self.assertGreater(len(told), 1, said)
+        for done, rate in told[1:]:  # 0.01 s or more after the first line
+            self.assertLessEqual(rate, (done - 100) / 0.01)
+
+    def test_a_second_interrupt_ends_the_program_at_once(self):
+        """While the only row of tiles of a picture is drawn, between whose ends nothing looks for the first one."""
+        words = [DGTK, "render", SCENE, "-o", self.path("x"), "--quiet", "--layers", "color", "--size", "4096x4096", "--tile", "4096x4096",
+                 "--samples", "16", "--visibility", "ray", "--frames", "0", "--threads", "1"]
+        with subprocess.Popen(words) as process:
+            def told(name):
+                with open(f"/proc/{process.pid}/{name}", encoding="utf-8") as file:
+                    return file.read()
+
+            def until(holds):
+                while process.poll() is None and not holds():
+                    time.sleep(0.002)
+
+            catches = lambda: int(re.search(r"SigCgt:\s*(\w+)", told("status")).group(1), 16) >> (signal.SIGINT - 1) & 1
+            spent = lambda: int(told("stat").rsplit(")", 1)[1].split()[11]) / os.sysconf("SC_CLK_TCK")  # s
+            until(lambda: os.path.isdir(self.path("x", "Camera0", "color")))
+            before = spent()
+            until(lambda: spent() > before + 0.3)  # it draws
+            process.send_signal(signal.SIGINT)
+            until(lambda: not catches())
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(timeout=300), -signal.SIGINT)
+
     def test_another_request_is_not_mixed_in(self):
         folder = self.path("mixed")
-        self.interrupted(folder, signal.SIGKILL)
+        self.interrupt(folder, signal.SIGKILL)
         other = ("--quiet", "--layers", "depth", "--size", "64x48", "--frames", "0:3")
         before = digests(folder)
         self.refused("render", SCENE, "-o", folder, *other, "--resume", status=2, says="another request")
@@ -100,7 +132,7 @@ class Resume(Case):
 
     def test_changed_file_of_an_interrupted_run_is_rendered_again(self):
         folder = self.path("changed")
-        self.interrupted(folder, signal.SIGKILL)
+        self.interrupt(folder, signal.SIGKILL)
         victim = sorted(n for n in digests(folder) if n.endswith(".npy"))[0]
         with open(os.path.join(folder, victim), "ab") as file:
             file.write(b"x")
@@ -111,7 +143,7 @@ class Resume(Case):
 
     def test_an_unfinished_run_is_not_replaced_unasked(self):
         folder = self.path("run")
-        self.interrupted(folder, signal.SIGKILL)
+        self.interrupt(folder, signal.SIGKILL)
         before = digests(folder)
         self.refused("render", SCENE, "-o", folder, *OPTIONS, status=2, says=("unfinished run of the same request", "--resume", "--replace"))
         self.refused("render", SCENE, "-o", folder, *OPTIONS, "--resume", "--replace", status=2, says="exclude one another")

@@ -128,14 +128,18 @@ class Sample(Case):
         subprocess.run([os.path.join(SOURCE, "Utilities/Maintenance/make_random_schema"), "--check"], check=True)
 
     def test_usage(self):
-        scene = self.scene()
+        scene = self.scene(parameters={"n": {"integer": [2, 5]}, "m": 4})
         for words, says in ((["--samples", "3:1"], "--samples"), (["--samples", "0:1000000"], "--samples"),
                             (["--samples", "0", "--seed", "-1"], "--seed"), ([], "--samples")):
             self.refused("sample", scene, "-o", self.path("out"), *words, status=2, says=says)
+        largest = (1 << 53) - 1
+        self.refused("sample", scene, "-o", self.path("out"), "--samples", "0", "--seed", largest + 1, status=2, says="from 0 to 2^53 - 1")
+        self.dgtk("sample", scene, "-o", self.path("out"), "--samples", "0", "--seed", largest, "--quiet")
         self.refused("render", scene, "-o", self.path("out"), status=3, says=["scene.json:3", "parameters", "dgtk sample"])
         self.refused("sample", self.write("a.scene", "0\n"), "-o", self.path("out"), "--samples", "0", status=3, says="a.scene")
         info = json.loads(self.dgtk("info", scene, "--json").stdout)
-        self.assertEqual(info["parameters"], ["n"])
+        self.assertEqual(info["parameters"], ["n", "m"])
+        self.refused("info", scene, "--size", "4x3", status=2, says="--size is for a scene without random values")
         self.assertIn(("cameras[1].path", "path"), [(value["path"], value["kind"]) for value in info["values"]])
 
 

@@ -64,9 +64,11 @@ class Shards(Case):
 
     def test_a_folder_that_another_process_has_just_made(self):
         """As it is between two steps of another share, or after that one was killed there."""
-        for scene, name in ((DEMO, "one"), (self.scenes(2), "many")):
+        for scene, name, counted in ((DEMO, "one", "6 pictures"), (self.scenes(2), "many", "2 scenes")):
             os.makedirs(self.path(name, ".dgtk-parts"))
-            self.shard(scene, self.path(name), 0, 1, ("--layers", "depth", "--size", "32x24", "--quiet"))
+            said = self.dgtk("render", scene, "-o", self.path(name), "--layers", "depth", "--size", "32x24", "--shard", "0/1",
+                             environment={"DGTK_PROGRESS": "3600"}).stderr
+            self.assertIn(f"0/{counted}, 0.000/s, ? left\n", said)
             self.dgtk("merge", self.path(name))
 
     def test_packed_inputs(self):
@@ -150,7 +152,7 @@ class Shards(Case):
         self.assertEqual(json.loads(self.dgtk("info", self.path("all"), "--json").stdout)["scenes"], ["000000", "000001", "000002"])
         shutil.copytree(self.path("all"), self.path("copy"))
         self.assertNotIn(" 1 differ", self.dgtk("compare", self.path("all"), self.path("copy")).stdout)
-        flip(self.path("copy", "000002", "left", "depth", "000000.npy"), 1)
+        flip(self.path("copy", "000001", "left", "depth", "000000.npy"), 1)
         self.assertIn(" 1 differ", self.dgtk("compare", self.path("all"), self.path("copy"), status=1).stdout)
         # The same again, another request, and an unfinished one.
         self.dgtk("render", scenes, "-o", self.path("all"), *options)
@@ -246,7 +248,10 @@ class Shards(Case):
         rows = [({"SLURM_ARRAY_TASK_ID": "7", "SLURM_ARRAY_TASK_MIN": "5", "SLURM_ARRAY_TASK_MAX": "9", "SLURM_ARRAY_TASK_STEP": "2",
                   "SLURM_ARRAY_TASK_COUNT": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "1"}, (1, 4)),
                 ({"SLURM_PROCID": "2", "SLURM_NTASKS": "3"}, (2, 5)), ({"OMPI_COMM_WORLD_RANK": "0", "OMPI_COMM_WORLD_SIZE": "3"}, (0, 3)),
-                ({"PMI_RANK": "5", "PMI_SIZE": "6"}, (5,))]
+                ({"PMI_RANK": "5", "PMI_SIZE": "6"}, (5,)),
+                # mpirun within a job of Slurm, whose words all processes inherit
+                ({"OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "3"}, (1, 4)),
+                ({"PMI_RANK": "2", "PMI_SIZE": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "1"}, (2, 5))]
         for number, (words, blocks) in enumerate(rows):
             with self.subTest(words):
                 folder = self.path(f"d{number}")

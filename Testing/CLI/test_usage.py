@@ -2,10 +2,11 @@
 """Help, version, and wrong usage."""
 import json
 import os
+import re
 import subprocess
 import time
 
-from harness import SCENES, SOURCE, Case, main
+from harness import DGTK, SCENES, SOURCE, Case, main
 
 SCENE = os.path.join(SCENES, "demo.json")
 
@@ -84,6 +85,20 @@ class Usage(Case):
             done = self.dgtk(*words[:3], self.path("z"), *words[4:], status=2, environment={"DGTK_PROGRESS": wrong})
             self.assertIn("DGTK_PROGRESS: expected seconds from 0.01 to 3600", done.stderr)
         self.assertFalse(os.path.exists(self.path("z")))
+
+    def test_what_is_left_of_a_long_run_is_told_in_hours(self):
+        self.write("quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        scene = self.write("long.json", json.dumps({"keyFrames": [0, 299999], "objects": [{"model": "quad.obj"}],
+                                                    "cameras": [{"eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}))
+        words = (DGTK, "render", scene, "-o", self.path("x"), "--layers", "color", "--size", "128x96", "--samples", "16", "--threads", "1")
+        with subprocess.Popen(words, stderr=subprocess.PIPE, text=True, env={**os.environ, "DGTK_PROGRESS": "0.01"}) as process:
+            line = next(line for line in process.stderr if not line.startswith("0/"))
+            process.kill()
+        told = re.match(r"(\d+)/300000 pictures, ([\d.]+)/s, (\d+):([0-5]\d):([0-5]\d) left$", line)
+        self.assertTrue(told, line)
+        done, rate, hours, minutes, seconds = map(float, told.groups())
+        left = 3600 * hours + 60 * minutes + seconds
+        self.assertAlmostEqual(left * rate, 300000 - done, delta=0.01 * left + rate)  # the rate's last digit, and rounding
 
     def test_lists(self):
         for what, word in (("readers", "md2"), ("layers", "depth"), ("options", "points_step"), ("writers", "npy"), ("cameras", "orthographic"), ("gl", "egl")):

@@ -194,7 +194,7 @@ GeneratorResult Run::execute()
     this->Result.files = this->Documents->write(*this->Files, this->Result.warnings);
     if (this->Callbacks.progress)
     {
-      this->Callbacks.progress({ this->Done, this->jobs().size() });
+      this->Callbacks.progress({ this->Done, this->jobs().size(), this->Result.kept });
     }
   }
   this->Result.files += this->Files->files().size();
@@ -232,7 +232,7 @@ void Run::renderAll()
 {
   if (this->Callbacks.progress)
   {
-    this->Callbacks.progress({ this->Done, this->jobs().size() });
+    this->Callbacks.progress({ this->Done, this->jobs().size(), this->Result.kept });
   }
   for (const Job& job : this->jobs())
   {
@@ -254,7 +254,7 @@ void Run::renderAll()
     }
     if (this->Callbacks.progress)
     {
-      this->Callbacks.progress({ this->Done, this->jobs().size() });
+      this->Callbacks.progress({ this->Done, this->jobs().size(), this->Result.kept });
     }
   }
   this->Source->finish();

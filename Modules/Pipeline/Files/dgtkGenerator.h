@@ -49,6 +49,7 @@ struct GeneratorProgress
 {
   std::size_t done = 0;
   std::size_t total = 0;
+  std::size_t kept = 0; ///< of those that are done, from an interrupted run
 };
 
 struct GeneratorResult

@@ -144,6 +144,7 @@ public:
     one.classes = one.classes.empty() ? this->Files.classes : one.classes;
     if (keep && this->isDone(one))
     {
+      ++this->Kept;
       this->advance();
       return true;
     }
@@ -239,7 +240,7 @@ private:
   {
     if (this->Callbacks.progress)
     {
-      this->Callbacks.progress({ this->Done, this->Total });
+      this->Callbacks.progress({ this->Done, this->Total, this->Kept });
     }
   }
 
@@ -250,6 +251,7 @@ private:
   std::set<std::string> Said;
   std::size_t Total = 0;
   std::size_t Done = 0;
+  std::size_t Kept = 0; ///< of these
   std::size_t Failed = 0;
   std::size_t Busy = 0;
   std::string FirstFailure;
@@ -331,18 +333,20 @@ GeneratorResult shardOfPictures(
   for (std::size_t block = shard.index; block < run.blocks() && !all.interrupted; block += shard.count)
   {
     own.block = RunBlock{ request.folder + '/' + partName(block), block * run.blockSize(), run.blockSize() };
-    const std::size_t before = all.pictures;
+    const GeneratorResult before = all;
     GeneratorCallbacks each = callbacks;
     each.progress = [&](const GeneratorProgress& state)
     {
       if (callbacks.progress)
       {
-        callbacks.progress({ before + state.done, total });
+        callbacks.progress({ before.pictures + state.done, total, before.kept + state.kept });
       }
     };
     if (isFinished(own.block->folder, hash))
     {
-      all.pictures += std::min(run.blockSize(), run.items - own.block->first);
+      const std::size_t pictures = std::min(run.blockSize(), run.items - own.block->first);
+      all.pictures += pictures;
+      all.kept += pictures;
       continue;
     }
     own.resume = true;

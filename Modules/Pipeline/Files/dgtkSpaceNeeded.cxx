@@ -35,10 +35,11 @@ void operator+=(SpaceNeeded& sum, const SpaceNeeded& more)
 std::string sizeText(std::uint64_t bytes)
 {
   constexpr double kilo = 1000;
+  constexpr double most = 999.5; // what three digits round to 1000
   const char* const units[] = { "bytes", "KB", "MB", "GB", "TB", "PB" };
   double value = static_cast<double>(bytes);
   std::size_t unit = 0;
-  for (; value >= kilo && unit + 1 < std::size(units); ++unit)
+  for (; value >= most && unit + 1 < std::size(units); ++unit)
   {
     value /= kilo;
   }

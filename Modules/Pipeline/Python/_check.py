@@ -60,13 +60,13 @@ def absolute(name, value):
         raise RuntimeError(f"{name}: the current folder: {error.strerror}") from None
 
 
-def integer(name, value):
+def integer(name, value, among=_INTEGERS, expected="an integer"):
     try:
-        if not isinstance(value, (bool, numpy.bool_)) and operator.index(value) in _INTEGERS:
+        if not isinstance(value, (bool, numpy.bool_)) and operator.index(value) in among:
             return operator.index(value)
     except TypeError:
         pass
-    return fail(name, "an integer", value)
+    return fail(name, expected, value)
 
 
 def switch(name, value):

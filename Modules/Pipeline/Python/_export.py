@@ -46,7 +46,7 @@ def export(dataset, format, folder, cameras=None, frames=None, progress=None, re
 def exporters():
     """The formats of `export()`: a dict of name to (list of the layers that a dataset must have, description)."""
     rows = [line.split("\t") for line in dgtkDatasetExporter.GetFormats().splitlines()]
-    return {name: (layers.split(","), description) for name, layers, description in rows}
+    return {name: (layers.split(",") if layers else [], description) for name, layers, description in rows}
 
 
 with_options(export, "\n".join(line for line in dgtkDatasetExporter.GetOptions().splitlines() if not line.startswith("cameras\t")) + "\n")

@@ -10,9 +10,7 @@ _SEEDS = 1 << 53
 
 
 def _seed(value):
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < _SEEDS:
-        _check.fail("seed", "an integer from 0 to 2**53 - 1", value)
-    return value
+    return _check.integer("seed", value, range(_SEEDS), "an integer from 0 to 2**53 - 1")
 
 
 def sample(scene, number, seed=None, folder=None):

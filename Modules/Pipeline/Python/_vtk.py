@@ -97,19 +97,34 @@ def _cells(shot):
     return vtk_to_numpy(cells)
 
 
+def _is_snapshot(view, size, unsupported):
+    """What a snapshot was taken with is not said again."""
+    if not isinstance(view, dgtkSnapshot):
+        return False
+    if size is not None:
+        _check.fail("size", "none beside a snapshot", size)
+    if not isinstance(unsupported, str) or unsupported != "refuse":
+        _check.fail("unsupported", "none beside a snapshot", unsupported)
+    return True
+
+
 def truth(view, layers, size=None, unsupported="refuse", **options):
     """Exact ground truth of what a VTK view shows.
 
     layers: a name or a list of names of render(), and "cells": for each pixel the cell of the input of its actor's mapper
     (int64, -1 nothing; of composite data counted through its blocks, of glyphs the point that they stand at). Object ids are
-    1, 2, ... in the order of the view's visible actors, assemblies flattened. view, size and unsupported as in snapshot(),
-    options as in render(). Returns a Truth: a dict of outputs, height x width, rows from the top.
+    1, 2, ... in the order of the view's visible actors, assemblies flattened. view: as in snapshot(), or a Snapshot. size and
+    unsupported as in snapshot(), and not beside a Snapshot; options as in render(), and not where cells are all that is
+    asked for. Returns a Truth: a dict of outputs, height x width, rows from the top. Raises ValueError for what cannot be
+    honoured, with its name.
     """
     _check.names("layers", layers)
     names = [layers] if isinstance(layers, str) else list(layers)
-    shot = view if isinstance(view, dgtkSnapshot) else snapshot(view, size, unsupported)
-    outputs = Truth(shot)
     others = [name for name in names if name != "cells"]
+    for name, value in () if others else options.items():
+        _check.fail(name, "no option of render() beside cells alone", value)
+    shot = view if _is_snapshot(view, size, unsupported) else snapshot(view, size, unsupported)
+    outputs = Truth(shot)
     if others:
         outputs.update(render(shot, others, **options))
     if "cells" in names:
@@ -134,8 +149,11 @@ def correspond(first, second):
 
 
 def visible_cells(view, size=None, unsupported="refuse"):
-    """For each prop, in the order of their ids, the number of pixels that see each cell of its mapper's input (uint32)."""
-    shot = view if isinstance(view, dgtkSnapshot) else snapshot(view, size, unsupported)
+    """For each prop, in the order of their ids, the number of pixels that see each cell of its mapper's input (uint32).
+
+    view, size and unsupported as in truth().
+    """
+    shot = view if _is_snapshot(view, size, unsupported) else snapshot(view, size, unsupported)
     if not shot.CountCells():
         _check.raise_error(shot)
     return [vtk_to_numpy(shot.CountPixels(i)) for i in range(shot.GetNumberOfProps())]
