@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkShadowQuery.h"
 
+#include "dgtkColorMap.h"
 #include "dgtkRayScene.h"
 #include "dgtkSurfaceRows.h"
 #include "dgtkWorkTime.h"
 
 #include <cmath>
+#include <map>
+#include <vector>
 
 namespace dgtk
 {
@@ -18,6 +21,7 @@ struct ShadowContext
 {
   RTCIntersectContext context;
   const RayScene* scene;
+  const std::vector<bool>* clear; ///< by instance: colours of its vertices let light through, as in OpenGL's pictures
 };
 
 bool isTranslucent(const Instance& instance, std::uint32_t triangle)
@@ -38,11 +42,12 @@ void shadowFilter(const RTCFilterFunctionNArguments* arguments)
       continue;
     }
     const unsigned int geometry = RTCHitN_geomID(arguments->hit, arguments->N, i);
-    const Instance& instance = context.scene->state().instances[RTCHitN_instID(arguments->hit, arguments->N, i, 0)];
+    const unsigned int object = RTCHitN_instID(arguments->hit, arguments->N, i, 0);
+    const Instance& instance = context.scene->state().instances[object];
     const std::uint32_t triangle = mesh->firstTriangle[geometry] + RTCHitN_primID(arguments->hit, arguments->N, i);
     const Eigen::Vector2d barycentrics(
       double(RTCHitN_u(arguments->hit, arguments->N, i)), double(RTCHitN_v(arguments->hit, arguments->N, i)));
-    if (isTranslucent(instance, triangle) ||
+    if ((*context.clear)[object] || isTranslucent(instance, triangle) ||
         (mesh->cutOut[geometry] != 0 && isCutOut(instance, triangle, barycentrics)))
     {
       arguments->valid[i] = 0;
@@ -57,8 +62,13 @@ public:
     : Scene(RayDevice::shared(), false)
   {
     this->Scene.place(state, camera_from_world);
+    std::map<const Model*, bool> models;
     for (const Instance& instance : state->instances)
     {
+      const auto [known, isNew] = models.try_emplace(instance.model.get(), false);
+      known->second = isNew ? hasTranslucentColors(*instance.model) : known->second;
+      this->Clear.push_back(known->second);
+      this->Filtered = this->Filtered || known->second;
       for (const Material& material : *instance.materials)
       {
         this->Filtered = this->Filtered || material.opacity < 1 || material.cutOut;
@@ -75,6 +85,7 @@ public:
     context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     context.context.filter = this->Filtered ? shadowFilter : nullptr;
     context.scene = &this->Scene;
+    context.clear = &this->Clear;
     alignas(64) RTCRay16 packet{};
     alignas(64) int valid[mostPaths];
     for (std::size_t i = 0; i < mostPaths; ++i)
@@ -107,6 +118,7 @@ public:
 
 private:
   RayScene Scene;
+  std::vector<bool> Clear; ///< by instance
   bool Filtered = false;
 };
 

@@ -59,6 +59,16 @@ class Glyphs(unittest.TestCase):
                 self.assertEqual(set(numpy.unique(classes)), {0, 1})
                 numpy.testing.assert_allclose(xy[classes == 1], centres[classes == 1], atol=1e-9)
 
+    def test_arrays_shorter_than_the_points(self):
+        """VTK reads beyond their ends."""
+        for name in ("size", "shape", "Normals", "shade"):
+            with self.subTest(name):
+                renderer = scenes.glyph_mapper()
+                data = next(iter(renderer.GetViewProps())).GetMapper().GetInputDataObject(0, 0).GetPointData()
+                data.GetArray(name).SetNumberOfTuples(3)
+                with self.assertRaisesRegex(ValueError, "actor-1: arrays of its glyphs that are shorter than its points"):
+                    dgtk.truth(renderer, "depth", size=(32, 24))
+
     def test_quaternions_of_any_length(self):
         """VTK turns by their directions, and draws nothing where one is zero."""
         points = vtk.vtkPolyData()

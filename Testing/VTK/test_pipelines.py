@@ -71,6 +71,48 @@ class Pipelines(unittest.TestCase):
                        lambda: renderer.SetBackground(0, 0, 1), lambda: actor.VisibilityOff(), lambda: source.SetLayers("depth")):
             self.assertEqual(executes(change), 1)
 
+    def test_it_sees_what_actors_do_not_know_of(self):
+        """Blocks and their colours, the shape of a glyph, the picture of a texture, a plane: each change is in the next output."""
+        blocks, glyphs = scenes.blocks(), scenes.glyph_mapper()
+        blocked = next(iter(blocks.GetViewProps()))
+        data = blocked.GetMapper().GetInputDataObject(0, 0)
+        attributes = blocked.GetMapper().GetCompositeDataDisplayAttributes()
+        glyphed = next(iter(glyphs.GetViewProps()))
+        shape = vtk.vtkSphereSource()
+        glyphed.GetMapper().SetSourceConnection(1, shape.GetOutputPort())
+        textured = scenes.actor(vtk.vtkPlaneSource())
+        textured.SetTexture(scenes.picture())
+        plane = vtk.vtkPlane()
+        plane.SetOrigin(-9, 0, 0)
+        plane.SetNormal(1, 0, 0)
+        textured.GetMapper().AddClippingPlane(plane)
+
+        def move_a_point():
+            data.GetBlock(0).GetPoints().SetPoint(0, -1.2, 0, 3)
+            data.GetBlock(0).GetPoints().Modified()
+
+        def paint():
+            picture = textured.GetTexture().GetInput()
+            picture.GetPointData().GetScalars().Fill(90)
+            picture.GetPointData().GetScalars().Modified()
+        for name, renderer, change in (("point of a block", blocks, move_a_point),
+                                       ("colour of a block", blocks, lambda: attributes.SetBlockColor(data.GetBlock(0), (1, 0, 0))),
+                                       ("shape of a glyph", glyphs, lambda: shape.SetRadius(0.9)),
+                                       ("picture", scenes.renderer(textured, eye=(0, 0, 3)), paint),
+                                       ("plane", scenes.renderer(textured, eye=(0, 0, 3)), lambda: plane.SetOrigin(0, 0, 0))):
+            with self.subTest(name):
+                source = dgtk.dgtkGroundTruthSource()
+                source.SetRenderer(renderer)
+                source.SetLayers("color,depth")
+                source.SetSize(60, 40)
+
+                def output():
+                    source.Update()
+                    return [vtk_to_numpy(source.GetOutput().GetPointData().GetArray(layer)).copy() for layer in ("color", "depth")]
+                before = output()
+                change()
+                self.assertTrue(any((old != new).any() for old, new in zip(before, output())))
+
     def test_of_a_scene(self):
         scene = dgtk.load(os.path.join(os.environ["DGTK_SOURCE"], "Data", "Scenes", "demo.json"))
         source = dgtk.dgtkGroundTruthSource()

@@ -233,6 +233,27 @@ class Snapshots(unittest.TestCase):
                         else:
                             numpy.testing.assert_allclose(one, other, rtol=1e-12)
 
+    def test_a_ball_throws_a_shadow(self):
+        """From straight above onto a plane: a disc of its radius."""
+        ball, floor, light = vtk.vtkSphereSource(), vtk.vtkPlaneSource(), vtk.vtkLight()
+        ball.SetCenter(0, 0, 2)
+        ball.SetThetaResolution(60)
+        ball.SetPhiResolution(60)
+        floor.SetOrigin(-2, -2, 0)
+        floor.SetPoint1(2, -2, 0)
+        floor.SetPoint2(-2, 2, 0)
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(0, 0, 9)
+        renderer = scenes.renderer(scenes.actor(ball), scenes.actor(floor), eye=(6, 0, 3))
+        renderer.AddLight(light)
+        renderer.UseShadowsOn()
+        truth = dgtk.truth(renderer, ["objects", "position", "color"], size=SIZE)
+        seen = truth["objects"] == 2
+        away, bright = numpy.linalg.norm(truth["position"][seen][:, :2], axis=-1), truth["color"][seen].max(-1)
+        self.assertGreater((away < 0.48).sum(), 10)
+        self.assertEqual(bright[away < 0.48].max(), 0)
+        self.assertEqual(bright[away > 0.5].min(), 255)
+
     def test_colours_that_need_more_light_than_files_have(self):
         renderer = scenes.contour()
         for actor in renderer.GetActors():
@@ -394,7 +415,8 @@ class Refused(unittest.TestCase):
         self.refused(squeezed, "projective matrix")
 
     def test_pictures_that_cannot_be_honoured(self):
-        for words, change in (("a gradient background", lambda r: r.GradientBackgroundOn()), ("ambient occlusion of screen space", lambda r: r.UseSSAOOn()),
+        for words, change in (("a gradient background", lambda r: r.GradientBackgroundOn()), ("image based lighting", lambda r: r.UseImageBasedLightingOn()),
+                              ("ambient occlusion of screen space", lambda r: r.UseSSAOOn()),
                               ("a render pass", lambda r: r.SetPass(vtk.vtkSSAOPass()))):
             renderer = scenes.quad_sphere()
             change(renderer)
@@ -450,6 +472,14 @@ class Refused(unittest.TestCase):
             dgtk.snapshot(renderer, unsupported="maybe")
         with self.assertRaises((ValueError, RuntimeError)):
             dgtk.truth(renderer, ["depht"], size=SIZE)
+        shot = dgtk.snapshot(renderer, SIZE)
+        for call in (lambda **more: dgtk.truth(shot, "cells", **more), lambda **more: dgtk.visible_cells(shot, **more)):
+            for name, value in (("size", SIZE), ("unsupported", "skip"), ("unsupported", "maybe")):
+                with self.assertRaisesRegex(ValueError, rf"\A{name}: expected none beside a snapshot, found "):
+                    call(**{name: value})
+            call(size=None, unsupported="refuse")
+        with self.assertRaisesRegex(ValueError, r"\Anonsense: expected no option of render\(\) beside cells alone, found 3\Z"):
+            dgtk.truth(shot, "cells", nonsense=3)
 
     def test_an_empty_renderer(self):
         truth = dgtk.truth(vtk.vtkRenderer(), ["objects", "depth", "cells", "color"], size=(4, 3))

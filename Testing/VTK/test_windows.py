@@ -76,6 +76,32 @@ class Colours(unittest.TestCase):
                     renderer.AddLight(other)
                     self.compare(renderer)
 
+    def test_a_headlight_that_does_not_follow_the_camera(self):
+        renderer = scenes.quad_sphere()
+        renderer.AutomaticLightCreationOff()
+        renderer.LightFollowCameraOff()
+        for kind, place in (("Headlight", (3, 1.5, -1.2)), ("SceneLight", (-3, 2, -1))):
+            light = vtk.vtkLight()
+            getattr(light, "SetLightTypeTo" + kind)()
+            light.SetPosition(*place)
+            renderer.AddLight(light)
+        self.compare(renderer)
+
+    def test_a_headlight_alone_is_in_the_camera(self):
+        turned = vtk.vtkTransform()
+        turned.RotateY(25)
+        for follows, matrix in ((False, None), (False, turned.GetMatrix()), (True, turned.GetMatrix())):
+            with self.subTest(follows=follows, moved=matrix is not None):
+                renderer = scenes.quad_sphere()
+                renderer.AutomaticLightCreationOff()
+                renderer.SetLightFollowCamera(follows)
+                light = vtk.vtkLight()
+                light.SetLightTypeToHeadlight()
+                light.SetPosition(3, 1.5, -1.2)
+                light.SetTransformMatrix(matrix)
+                renderer.AddLight(light)
+                self.compare(renderer)
+
     def test_a_texture_that_does_not_repeat(self):
         """Its border goes on: in its colours, and in its holes, which are exact ground truth."""
         texels = numpy.full((4, 4, 4), 255, numpy.uint8)
@@ -235,14 +261,17 @@ class Colours(unittest.TestCase):
                 dgtk.snapshot(self.bumpy(change=change), SIZE)
 
     def test_what_of_them_cannot_be_honoured(self):
-        def picture():
+        def picture(srgb=False, turn=None):
             made = scenes.picture()
-            made.SetUseSRGBColorSpace(False)
+            made.SetUseSRGBColorSpace(srgb)
+            made.SetTransform(turn)
             return made
         for words, change in (("a coat", lambda of: of.SetCoatStrength(0.5)), ("anisotropy", lambda of: of.SetAnisotropy(0.5)),
                               ("anisotropyTex", lambda of: of.SetAnisotropyTexture(picture())),
                               ("occlusion in the texture materialTex", lambda of: of.SetORMTexture(picture())),
-                              ("index of refraction", lambda of: of.SetBaseIOR(1.8)), ("an edge tint", lambda of: of.SetEdgeTint(1, 0.5, 0.5))):
+                              ("index of refraction", lambda of: of.SetBaseIOR(1.8)), ("an edge tint", lambda of: of.SetEdgeTint(1, 0.5, 0.5)),
+                              ("an emissive factor", lambda of: (of.SetEmissiveTexture(picture(True)), of.SetEmissiveFactor(0.5, 0.5, 0.5))),
+                              ("a transform of the texture albedoTex", lambda of: of.SetBaseColorTexture(picture(True, vtk.vtkTransform())))):
             with self.subTest(words), self.assertRaisesRegex(ValueError, words):
                 dgtk.snapshot(self.physical(change), SIZE)
 

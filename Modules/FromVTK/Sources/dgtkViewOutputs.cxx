@@ -3,12 +3,26 @@
 
 #include "dgtkError.h"
 #include "dgtkOption.h"
+#include "dgtkRendererProps.h"
+#include "dgtkUnsupported.h"
 
-#include "vtkCamera.h"
-#include "vtkLight.h"
-#include "vtkLightCollection.h"
-#include "vtkProp.h"
-#include "vtkPropCollection.h"
+#include <vtkActor.h>
+#include <vtkAlgorithm.h>
+#include <vtkCamera.h>
+#include <vtkCompositeDataDisplayAttributes.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkCompositePolyDataMapper2.h>
+#include <vtkDataObjectTreeRange.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkMapper.h>
+#include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
+#include <vtkProp.h>
+#include <vtkPropCollection.h>
+#include <vtkProperty.h>
+#include <vtkTexture.h>
+#include <vtkTransform.h>
 
 #include <algorithm>
 
@@ -110,6 +124,72 @@ ViewOutputs outputsOf(const ViewRequest& request)
   return to;
 }
 
+namespace
+{
+/// Of a data object and of the blocks in it, of which a composite one does not know.
+vtkMTimeType timeOf(vtkDataObject& data)
+{
+  vtkMTimeType latest = data.GetMTime();
+  if (auto* const tree = vtkDataObjectTree::SafeDownCast(&data))
+  {
+    for (vtkDataObject* const block : vtk::Range(tree))
+    {
+      latest = std::max(latest, block->GetMTime());
+    }
+  }
+  return latest;
+}
+
+/// Of all that an algorithm is given, brought up to date.
+vtkMTimeType timeOfInputs(vtkAlgorithm& algorithm)
+{
+  vtkMTimeType latest = algorithm.GetMTime();
+  for (int port = 0; port < algorithm.GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < algorithm.GetNumberOfInputConnections(port); ++i)
+    {
+      algorithm.GetInputAlgorithm(port, i)->Update();
+      vtkDataObject* const data = algorithm.GetInputDataObject(port, i);
+      latest = data != nullptr ? std::max(latest, timeOf(*data)) : latest;
+    }
+  }
+  return latest;
+}
+
+vtkMTimeType timeOfTexture(vtkTexture& texture)
+{
+  const vtkMTimeType inputs = timeOfInputs(texture);
+  return texture.GetTransform() != nullptr ? std::max(inputs, texture.GetTransform()->GetMTime()) : inputs;
+}
+
+/// Of what an actor's own time leaves out: all inputs of its mapper, its textures' pictures, planes, and attributes of
+/// blocks.
+vtkMTimeType timeOfParts(vtkActor& actor)
+{
+  vtkMapper& mapper = *actor.GetMapper();
+  vtkMTimeType latest = timeOfInputs(mapper);
+  if (actor.GetTexture() != nullptr)
+  {
+    latest = std::max(latest, timeOfTexture(*actor.GetTexture()));
+  }
+  for (const auto& named : actor.GetProperty()->GetAllTextures())
+  {
+    latest = named.second != nullptr ? std::max(latest, timeOfTexture(*named.second)) : latest;
+  }
+  vtkPlaneCollection* const planes = mapper.GetClippingPlanes();
+  for (int i = 0; planes != nullptr && i < planes->GetNumberOfItems(); ++i)
+  {
+    latest = std::max(latest, planes->GetItem(i)->GetMTime());
+  }
+  auto* const composite = vtkCompositePolyDataMapper2::SafeDownCast(&mapper);
+  if (composite != nullptr && composite->GetCompositeDataDisplayAttributes() != nullptr)
+  {
+    latest = std::max(latest, composite->GetCompositeDataDisplayAttributes()->GetMTime());
+  }
+  return latest;
+}
+} // namespace
+
 vtkMTimeType modifiedTime(vtkRenderer& renderer)
 {
   vtkMTimeType latest = renderer.GetMTime();
@@ -127,6 +207,11 @@ vtkMTimeType modifiedTime(vtkRenderer& renderer)
   while (vtkProp* const prop = renderer.GetViewProps()->GetNextProp(at))
   {
     latest = std::max({ latest, prop->GetMTime(), prop->GetRedrawMTime() });
+  }
+  Unsupported unsupported;
+  for (const ViewActor& actor : rendererActors(renderer, unsupported))
+  {
+    latest = std::max(latest, timeOfParts(*actor.actor));
   }
   return std::max(latest, renderer.GetViewProps()->GetMTime());
 }

@@ -53,6 +53,16 @@ public:
     mapColors(mapper, points, this->Colors, opacity); // which VTK has in the colours of glyphs, too
   }
 
+  /// Whether each point has a place in the arrays that say how its glyph is, beyond whose end VTK reads.
+  bool areWhole() const
+  {
+    const vtkIdType count = this->Points.GetNumberOfPoints();
+    const auto isShort = [count](const vtkAbstractArray* array)
+    { return array != nullptr && array->GetNumberOfTuples() < count; };
+    return !isShort(this->Scale) && !isShort(this->Orientation) && !isShort(this->Source) && !isShort(this->Mask) &&
+           (this->Colors.colorsOfCells || !isShort(this->Colors.colors));
+  }
+
   /// VTK draws nothing where a quaternion is no turn.
   bool isThere(vtkIdType point) const
   {
@@ -63,8 +73,8 @@ public:
 
   std::size_t sourceOf(vtkIdType point, std::size_t sources) const
   {
-    return this->Source == nullptr ? 0
-                                   : std::size_t(std::clamp(normOf(*this->Source, point), 0.0, double(sources - 1)));
+    const double index = this->Source == nullptr ? 0 : normOf(*this->Source, point);
+    return index > 0 ? std::size_t(std::min(index, double(sources - 1))) : 0; // NaN: the first one
   }
 
   GlyphPlace place(vtkIdType point) const
@@ -189,6 +199,11 @@ DrawnSurface glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported&
     return {};
   }
   const Glyphs places(glyphs, *points, actor.actor->GetProperty()->GetOpacity());
+  if (!places.areWhole())
+  {
+    unsupported.add(actor.name + ": arrays of its glyphs that are shorter than its points");
+    return {};
+  }
   for (vtkIdType point = 0; point < points->GetNumberOfPoints(); ++point)
   {
     if (places.isThere(point))

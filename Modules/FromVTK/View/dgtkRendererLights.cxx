@@ -40,13 +40,19 @@ Eigen::Vector3d moved(vtkMatrix4x4* matrix, const double* point)
   return Eigen::Vector3d(from[0], from[1], from[2]) / from[3];
 }
 
-LightDescription describe(vtkLight& light, vtkCamera& camera, vtkRenderer& renderer)
+/// Where it is the only one, VTK lights from the camera, wherever the light is and whether or not it follows.
+bool isPlainHeadlight(vtkLight& light) { return light.LightTypeIsHeadlight() != 0 && light.GetPositional() == 0; }
+
+LightDescription describe(vtkLight& light, vtkCamera& camera, vtkRenderer& renderer, bool alone)
 {
   LightDescription to;
-  const bool follows = renderer.GetLightFollowCamera() != 0;
+  const bool plain = alone && isPlainHeadlight(light);
+  const bool follows = plain || renderer.GetLightFollowCamera() != 0;
   const bool head = light.LightTypeIsHeadlight() != 0 && follows;
   const bool carried = light.LightTypeIsCameraLight() != 0 && follows;
-  vtkMatrix4x4* const matrix = carried ? camera.GetCameraLightTransformMatrix() : light.GetTransformMatrix();
+  vtkMatrix4x4* const matrix = plain     ? nullptr
+                               : carried ? camera.GetCameraLightTransformMatrix()
+                                         : light.GetTransformMatrix();
   to.position = moved(matrix, head ? camera.GetPosition() : light.GetPosition());
   to.target = moved(matrix, head ? camera.GetFocalPoint() : light.GetFocalPoint());
   const bool cone = light.GetConeAngle() < wholeCone;
@@ -82,9 +88,10 @@ LightDescription headLight()
 std::vector<LightDescription> rendererLights(vtkRenderer& renderer, vtkCamera& camera)
 {
   std::vector<LightDescription> lights;
-  for (vtkLight* const light : lightsOf(renderer))
+  const std::vector<vtkLight*> all = lightsOf(renderer);
+  for (vtkLight* const light : all)
   {
-    lights.push_back(describe(*light, camera, renderer));
+    lights.push_back(describe(*light, camera, renderer, all.size() == 1));
     lights.back().name = "light-" + std::to_string(lights.size());
   }
   return lights;

@@ -338,4 +338,19 @@ TEST(RectifiedBaseline, IsThatOfCamerasSideBySideOnly)
   View turned = pairViewAt({ 0.5, 0, 0 });
   turned.camera_from_world.rotation = Eigen::AngleAxisd(1e-6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   EXPECT_EQ(rectifiedBaseline(own, turned), 0);
+  const auto with = [](double fx, double fy, int width, int height)
+  {
+    View view = pairViewAt({ 0.5, 0, 0 });
+    Eigen::Matrix3d K = view.model->linear()->K;
+    K(0, 0) *= fx;
+    K(1, 1) *= fy;
+    K(0, 2) += 3;
+    view.model = makePinhole(pairWidth * width, pairHeight * height, K);
+    return view;
+  };
+  EXPECT_NEAR(rectifiedBaseline(own, with(1, 1, 1, 1)), 0.5, 1e-15) << "another cx";
+  EXPECT_EQ(rectifiedBaseline(own, with(2, 1, 1, 1)), 0);
+  EXPECT_EQ(rectifiedBaseline(own, with(1, 2, 1, 1)), 0);
+  EXPECT_EQ(rectifiedBaseline(own, with(1, 1, 2, 1)), 0);
+  EXPECT_EQ(rectifiedBaseline(own, with(1, 1, 1, 2)), 0);
 }

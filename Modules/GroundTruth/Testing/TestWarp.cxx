@@ -195,6 +195,18 @@ TEST(Warp, SplatsGrowWithThePixel)
   EXPECT_EQ(warpLayeredDepth(wall(6), viewAt({ 0, 0, 0 }), viewAt({ 0, 0, 5.2 })).holeCount, 0u);
 }
 
+TEST(Warp, SplatsGrowWithTheLargerOfTwoFocalLengths)
+{
+  for (const int axis : { 0, 1 })
+  {
+    View to = viewAt({ 0, 0, 0 });
+    Eigen::Matrix3d K = to.model->linear()->K;
+    K(axis, axis) *= 10; // a pixel becomes 10 x 1
+    to.model = makePinhole(width, height, K);
+    EXPECT_EQ(warpLayeredDepth(wall(6), viewAt({ 0, 0, 0 }), to).holeCount, 0u) << axis;
+  }
+}
+
 TEST(Warp, ASlantedPlaneStaysWhole)
 {
   // A plane that runs away to the right, seen by a camera to which it turns its face: n.x = depth.
@@ -261,6 +273,25 @@ TEST(Warp, PanesAreLaidFarToNear)
       const double middle = behind[c] + 0.4 * (farther[c] - behind[c]);
       EXPECT_EQ(image.rgb[(15 * width + 20) * 3 + c], std::lround(middle + 0.2 * (nearer[c] - middle))) << c;
     }
+  }
+}
+
+TEST(Warp, OfAPaneTheSampleNearestToThePixelIsLaidOver)
+{
+  // A shift of 0.4 pixels: the sample of the pixel itself is 0.4 away, that of the next column 0.6.
+  const WarpSource stripes = [](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    wall(2, 51)(
+      [&](int x, int y, WarpSample sample)
+      {
+        sample.rgba[0] = x % 2 == 0 ? 100 : 200;
+        visit(x, y, sample);
+      });
+  };
+  const WarpedImage image = warpLayeredDepth(stripes, viewAt({ 0, 0, 0 }), viewAt({ 0.016, 0, 0 }));
+  for (int x = 0; x < width; ++x)
+  {
+    EXPECT_EQ(image.rgb[(15 * width + x) * 3], x % 2 == 0 ? 20 : 40) << x;
   }
 }
 
@@ -400,4 +431,21 @@ TEST(Warp, AllAroundToItself)
   expectBall(warpLayeredDepth(ball(wide, 3), wide, wide), wide, 3); // a pixel's step is 4
   const View panorama = lensAt("equirectangular", { 60, 30, std::nullopt });
   expectBall(warpLayeredDepth(ball(panorama, 3), panorama, panorama), panorama, 12); // 12; normals are known coarsely
+}
+
+TEST(Warp, OfALensNearAndFarAreAlongTheRay)
+{
+  const View wide = fisheye();
+  const WarpSource all = ball(wide, 3);
+  const auto holes = [&](double near, double far)
+  {
+    View to = wide;
+    to.near = near;
+    to.far = far;
+    return warpLayeredDepth(all, wide, to).holeCount;
+  };
+  const std::uint64_t pixels = 120 * 120;
+  EXPECT_LT(holes(2, 4), pixels / 2);
+  EXPECT_EQ(holes(0.1, 2), pixels);
+  EXPECT_EQ(holes(4, 100), pixels);
 }

@@ -2,6 +2,7 @@
 #include "dgtkEpipolarLine.h"
 #include "dgtkLiveMatch.h"
 
+#include "dgtkFile.h"
 #include "dgtkGenerator.h"
 #include "dgtkLayerReader.h"
 #include "dgtkTestSupport.h"
@@ -197,6 +198,7 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
         EXPECT_EQ(match.to.pixel.y(), place[1]);
         ASSERT_TRUE(match.line.has_value());
         EXPECT_LT(match.lineDistance, lineTolerance);
+        ASSERT_NEAR(match.depthTo, match.depthFrom, 1e-12) << "of a rectified pair";
       }
     }
   }
@@ -204,6 +206,26 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
   EXPECT_GT(seen[2] + seen[3], 10);
   EXPECT_GT(seen[4], 10);
   EXPECT_EQ(live.objectNames(), Stage::load(scene)->objectNames());
+}
+
+TEST(LiveMatch, APointMovesWithItsObject)
+{
+  const test::TemporaryFolder folder;
+  writeFile(folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+  writeFile(folder.path("moving.json"), R"({ "objects": [{ "name": "quad", "model": "quad.obj",
+    "position": { "keys": [[0, [0.25, 0, 0]], [1, [0.5, -0.25, -1]]] } }],
+    "cameras": [{ "name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0] }] })");
+  const SceneDescription scene = readScene(folder.path("moving.json"));
+  ModelLibrary models;
+  models.load(scene);
+  const LiveScene live(scene, models);
+  const MatchView from{ cameraView(scene.cameras[0], 0, 40, 40), 0 };
+  const MatchView to{ cameraView(scene.cameras[0], 1, 40, 40), 1 };
+  const LiveMatch match = liveMatch(live, from, { 20, 20 }, to); // along the axis
+  EXPECT_LT(match.worldFrom.norm(), 1e-12);
+  EXPECT_LT((match.worldTo - Eigen::Vector3d(0.25, -0.25, -1)).norm(), 1e-12);
+  EXPECT_NEAR(match.depthFrom, 5, 1e-12);
+  EXPECT_NEAR(match.depthTo, 6, 1e-12);
 }
 
 TEST(LiveMatch, OfARollingShutterIsTheDatasets)

@@ -351,6 +351,23 @@ TEST(LiveView, IsTheEyeOfTheView)
     EXPECT_GT(depth, view.near);
     EXPECT_LT(depth, view.far);
   }
+  EXPECT_DOUBLE_EQ(view.far / view.near, 10000);
+}
+
+TEST(LiveView, ACameraOfTheSceneMayBeCalledAsTheEyeIs)
+{
+  SceneDescription scene = readScene(sourceFile("Data/Scenes/dataset_stereo.json"));
+  scene.cameras[1].name = "eye";
+  ModelLibrary models;
+  models.load(scene);
+  LiveQuestion question;
+  question.scene = std::make_shared<LiveScene>(scene, models);
+  question.camera = scene.cameras[0];
+  question.camera.name.clear();
+  ThreadPool pool(1);
+  const LiveEye eye(question, 8, pool);
+  EXPECT_EQ(eye.missing("depth"), "");
+  EXPECT_EQ(eye.view().camera_from_world.translation, viewOf(question).camera_from_world.translation);
 }
 
 TEST(NewestTask, WhatWaitedIsDropped)

@@ -12,7 +12,7 @@ namespace dgtk
 SampleWorld::SampleWorld(SceneDescription scene, SampleModels& models)
   : Scene(std::move(scene))
   , Models(models)
-  , Names(objectNamesOf(this->Scene))
+  , Geometry(this->Scene, models)
 {
 }
 

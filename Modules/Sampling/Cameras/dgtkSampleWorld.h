@@ -25,8 +25,8 @@ public:
   SampleWorld(SceneDescription scene, SampleModels& models);
 
   const SceneDescription& scene() const { return this->Scene; }
-  const std::vector<std::string>& names() const { return this->Names; }
-  SampleGeometry geometry() const { return SampleGeometry(this->Scene, this->Models); }
+  const std::vector<std::string>& names() const { return this->Geometry.names(); }
+  const SampleGeometry& geometry() const { return this->Geometry; }
   /// The scene at a frame, and what is known of it; the same where nothing moves.
   std::shared_ptr<const SceneState> stateAt(int frame);
   const SurfaceDistance& surfacesAt(int frame);
@@ -43,7 +43,7 @@ private:
 
   SceneDescription Scene;
   SampleModels& Models;
-  std::vector<std::string> Names;
+  SampleGeometry Geometry;
   std::shared_ptr<const Stage> TheStage;
   bool Moves = false;
   std::map<int, Moment> Moments;

@@ -269,40 +269,10 @@ std::vector<PlaceOutcome> placeObjects(
   return Placing(scene, rules, draws, models).run();
 }
 
-DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
-  const std::array<double, 3>& uniforms, SampleModels& models)
-{
-  const ObjectDescription& it = scene.objects[object];
-  const std::shared_ptr<const Model> model = models.model(scene.resolve(it.model));
-  const Affine3 world_from_object = ObjectPoses(scene).of(object, frame);
-  const auto corner = [&](std::size_t t, std::size_t i) -> Eigen::Vector3d
-  { return world_from_object * model->rest->positions[model->triangles[t][i]]; };
-  const auto normal = [&](std::size_t t) -> Eigen::Vector3d
-  { return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)); };
-  std::vector<double> sums;
-  for (std::size_t t = 0; t < model->triangles.size(); ++t)
-  {
-    sums.push_back((sums.empty() ? 0 : sums.back()) + normal(t).norm());
-  }
-  if (sums.empty() || !(sums.back() > 0))
-  {
-    throw InputError(scene.title(), it.line, "the model of " + quoted(it.name) + " has no surface to draw points on");
-  }
-  const auto chosen = std::upper_bound(sums.begin(), sums.end(), uniforms[0] * sums.back());
-  const std::size_t t = std::size_t(std::min(chosen, sums.end() - 1) - sums.begin());
-  const double root = std::sqrt(uniforms[1]);
-  DrawnSurfacePoint point;
-  point.x_in_world =
-    corner(t, 0) * (1 - root) + corner(t, 1) * (root * (1 - uniforms[2])) + corner(t, 2) * (root * uniforms[2]);
-  const double side = world_from_object.linear.determinant() < 0 ? -1 : 1;
-  point.normal_in_world = side * normal(t).normalized();
-  return point;
-}
-
 } // namespace dgtk
 
 const dgtk::PlacementCalls* dgtkPlacementCalls()
 {
-  static const dgtk::PlacementCalls calls{ &dgtk::placeObjects, &dgtk::pointOnSurface };
+  static const dgtk::PlacementCalls calls{ &dgtk::placeObjects };
   return &calls;
 }

@@ -32,24 +32,10 @@ struct PlaceOutcome
 std::vector<PlaceOutcome> placeObjects(
   SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models);
 
-/// A point of an object's surface, world frame.
-struct DrawnSurfacePoint
-{
-  Eigen::Vector3d x_in_world{ 0, 0, 0 };
-  Eigen::Vector3d normal_in_world{ 0, 1, 0 }; ///< of the triangle, unit length, on its front side
-};
-
-/// The point of the surface of an object, as it is at a frame, that three uniforms in [0, 1) stand for: the first
-/// chooses the triangle by its area in the world, the others the point in it, so that uniforms give points uniform over
-/// the area. Throws what SampleModels::model() throws, and InputError, at the object's line, for a model without area.
-DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
-  const std::array<double, 3>& uniforms, SampleModels& models);
-
 /// This library is loaded when something is placed: see dgtkOnDemand.h.
 struct PlacementCalls
 {
   decltype(&dgtk::placeObjects) placeObjects;
-  decltype(&dgtk::pointOnSurface) pointOnSurface;
 };
 
 inline const PlacementCalls& placement() { return onDemand<PlacementCalls>("dgtkPlacement"); }

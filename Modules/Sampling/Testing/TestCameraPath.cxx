@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampler.h"
 
+#include "dgtkFile.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace dgtk;
@@ -14,9 +17,10 @@ using testing::HasSubstr;
 namespace
 {
 /// A camera on a path, as it is sampled; `members` of the camera besides it.
-CameraDescription onPath(const std::string& path, const std::string& members = "")
+CameraDescription onPath(const std::string& path, const std::string& members = "", const std::string& up = "y")
 {
-  const std::string json = "{\"seed\": 2, \"cameras\": [{\"name\": \"c\", \"path\": {" + path + "}" + members + "}]}";
+  const std::string json = "{\"seed\": 2, \"upAxis\": \"" + up + "\", \"cameras\": [{\"name\": \"c\", \"path\": {" +
+                           path + "}" + members + "}]}";
   return Sampler(RandomScene::ofText(json, ".")).draw(0).scene.cameras.at(0);
 }
 
@@ -52,6 +56,17 @@ TEST(CameraPath, OrbitsGoAroundOnceAtTheHeightOfTheirCentre)
   expectNear(camera.eye.at(3), { -7, 2, 3 });
   expectNear(camera.eye.at(4), { 1, 2, 12 });
   expectNear(camera.lookAt.at(3), { 1, 2, 3 });
+}
+
+// z is up: longitude 0 is +x, 90 degrees +y.
+TEST(CameraPath, OrbitsGoAroundWhatIsUpInTheScene)
+{
+  const CameraDescription camera =
+    onPath("\"orbit\": {\"center\": [1, 2, 3], \"radius\": 5, \"elevation\": [0, 60], \"frames\": [0, 4]}", "", "z");
+  expectNear(camera.eye.at(0), { 6, 2, 3 });
+  expectNear(camera.eye.at(1), { 1, 2 + 5 * std::cos(M_PI / 12), 3 + 5 * std::sin(M_PI / 12) });
+  expectNear(camera.eye.at(2), { 1 - 5 * std::cos(M_PI / 6), 2, 5.5 });
+  expectNear(camera.eye.at(4), { 3.5, 2, 3 + 5 * std::sin(M_PI / 3) });
 }
 
 TEST(CameraPath, OrbitsMayRiseAndTurnAsFarAsTheySay)
@@ -104,6 +119,51 @@ TEST(CameraPath, CurvesAreLookedAlong)
   const std::string there = "\"spline\": {\"frames\": [0, 2], \"points\": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]}";
   EXPECT_THAT(refusalOfPath(there), HasSubstr("stands still")) << "where it turns back";
   EXPECT_EQ(refusalOfPath(there, ", \"lookAt\": [0, 0, 5]"), "");
+}
+
+TEST(CameraPath, WalksTurnAndGoAsFarAsTheySayInAFrame)
+{
+  for (const std::string level : { "true", "false" })
+  {
+    const CameraDescription camera =
+      onPath("\"walk\": {\"box\": [[-100, -100, -100], [100, 100, 100]], \"start\": [1, 2, 3], \"speed\": 0.25, "
+             "\"turn\": 20, \"level\": " +
+             level + ", \"frames\": [0, 300]}");
+    double most = 0;
+    double height = 0;
+    for (int frame = 1; frame < 300; ++frame)
+    {
+      const Eigen::Vector3d before = camera.eye.at(frame) - camera.eye.at(frame - 1);
+      const Eigen::Vector3d step = camera.eye.at(frame + 1) - camera.eye.at(frame);
+      ASSERT_NEAR(step.norm(), 0.25, 1e-12) << frame;
+      most = std::max(most, std::atan2(before.cross(step).norm(), before.dot(step)) * 180 / M_PI);
+      height = std::max(height, std::abs(step.y()));
+    }
+    EXPECT_LE(most, 20 + 1e-9) << level;
+    EXPECT_GE(most, 19) << level;
+    EXPECT_EQ(height == 0, level == "true");
+    expectNear(camera.eye.at(0), { 1, 2, 3 });
+  }
+}
+
+// A wall across x, at 9, 6.5, 4 and 1.5 at the frames.
+TEST(CameraPath, WalksKeepClearOfWhatComesTowardsThem)
+{
+  const test::TemporaryFolder folder;
+  writeFile(folder.path("wall.obj"), "v 0 -50 -50\nv 0 50 -50\nv 0 50 50\nv 0 -50 50\nf 1 2 3 4\n");
+  const std::string json = R"({"seed": 2, "objects": [{"name": "wall", "model": "wall.obj",
+    "position": {"keys": [[0, [9, 0, 0]], [3, [1.5, 0, 0]]]}}], "cameras": [{"name": "c", "path": {"walk": {
+    "box": [[-9, -9, -9], [9, 9, 9]], "start": [0, 0, 0], "speed": 1, "turn": 180, "clearance": 1,
+    "frames": [0, 3]}}}]})";
+  Sampler sampler(RandomScene::ofText(json, folder.path()));
+  for (int sample = 0; sample < 20; ++sample)
+  {
+    const CameraDescription camera = sampler.draw(sample).scene.cameras.at(0);
+    for (int frame = 0; frame <= 3; ++frame)
+    {
+      EXPECT_LE(camera.eye.at(frame).x(), 9 - 2.5 * frame - 1 + 1e-6) << sample << ' ' << frame;
+    }
+  }
 }
 
 TEST(CameraPath, PointsOfACurveAreApart)

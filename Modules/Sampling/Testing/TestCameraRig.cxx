@@ -96,6 +96,34 @@ TEST(CameraRig, FollowsAPathAtEveryFrame)
   }
 }
 
+TEST(CameraRig, WhatWasDrawnIsThatOfTheLastAttempt)
+{
+  const std::string ball = test::sourceFile("Data/Models/ball.ac");
+  const Sampler sampler(
+    RandomScene::ofText(R"({ "seed": 2, "objects": [ { "name": "ball", "model": ")" + ball +
+                          R"(" } ], "cameras": [ { "name": "left", "orientation": { "rotation": "any" },
+        "position": { "choice": [ { "inBox": [[3, 1, 3], [6, 5, 6]] }, { "inBox": [[-6, 1, 3], [-3, 5, 6]] } ] } },
+      { "name": "right", "fovY": { "uniform": [40, 60] }, "rig": { "camera": "left" },
+        "require": { "visible": { "ball": 0.9 }, "attempts": 1000 } } ] })",
+      "."));
+  int again = 0;
+  for (std::uint64_t number = 0; number < 8; ++number)
+  {
+    std::vector<SampleValue> values;
+    SampleWatch watch;
+    watch.values = &values;
+    again += sampler.draw(number, watch).notes.at(0).attempts > 1;
+    std::vector<std::string> paths;
+    for (const SampleValue& value : values)
+    {
+      paths.push_back(value.path);
+    }
+    // The rotation, which of both places, the place, and the angle.
+    EXPECT_EQ(paths.size(), 4U) << number << ": " << testing::PrintToString(paths);
+  }
+  EXPECT_GT(again, 4);
+}
+
 TEST(CameraRig, IsDrawnAgainTogether)
 {
   // The left camera asks for nothing; the right one, which looks away from it, must see the ball.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPlaceSamples.h"
 
+#include "dgtkSampler.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
@@ -53,4 +54,33 @@ TEST(Placement, StandsOnWhatIsPlacedBefore)
     EXPECT_THAT(placed(tableLater, at("a", "")), later);
     EXPECT_THAT(placed(tableLater, at("a", R"(, "drop": {})")), later);
   }
+}
+
+// Bricks of 0.1 x 0.05 x 0.06, whose middle along z is their origin's.
+TEST(Placement, PutsOnWhatIsUpInTheScene)
+{
+  PlaceScene made;
+  made.scene.upAxis = UpAxis::Z;
+  made.add("below", "brick.ac");
+  made.add("a", "brick.ac", R"({ "on": "below", "region": [[0.01, 0.02], [0.01, 0.02]] })");
+  const std::vector<PlaceOutcome> placed = made.place();
+  ASSERT_TRUE(placed.at(0).note.kept) << placed[0].note.why;
+  EXPECT_LT((made.scene.objects[1].position.value - Eigen::Vector3d(0.01, 0.02 - 0.025, 0.06)).norm(), 1e-6);
+}
+
+TEST(Placement, WhatIsLeftOutIsInNoOrder)
+{
+  const auto brick = [](const std::string& name, const std::string& more) {
+    return R"({ "name": ")" + name + R"(", "model": ")" + test::sourceFile("Data/Models/brick.ac") + '"' + more + " }";
+  };
+  const std::string large =
+    brick("large", R"(, "place": { "in": [[1, 1, 1], [1.01, 1.01, 1.01]], "otherwise": "omit" })");
+  const std::string json = R"({ "seed": 2, "objects": [)" + brick("first", "") + ", " + large + ", " +
+                           brick("last", "") + R"(], "lights": [ { "position": [0, 0, 9] } ],
+    "order": ["object", "object", "light", "object"] })";
+  const SceneDescription scene = Sampler(RandomScene::ofText(json, ".")).draw(0).scene;
+  ASSERT_EQ(scene.objects.size(), 2U);
+  EXPECT_EQ(scene.objects[1].name, "last");
+  using Kind = SceneItem::Kind;
+  EXPECT_EQ(scene.items(), (std::vector<SceneItem>{ { Kind::Object, 0 }, { Kind::Light, 0 }, { Kind::Object, 1 } }));
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Single draws: the ends of what may be said, and points that geometry decides.
 #include "dgtkDistributions.h"
+#include "dgtkPlaceSamples.h"
+#include "dgtkSampleGeometry.h"
 #include "dgtkSceneRandom.h"
 
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
@@ -62,6 +65,16 @@ TEST(SampleEnds, ShellsAreAroundPointsAndObjects)
   EXPECT_LE(
     (drawnPoint(drawOne("{\"shell\": {\"center\": [1, 2, 3], " + above, UpAxis::Z)) - Eigen::Vector3d(1, 2, 8)).norm(),
     1e-14);
+  // level, along the axes from which longitudes count
+  const auto level = [](const std::string& azimuth, UpAxis up)
+  {
+    const std::string shell = "{\"shell\": {\"center\": [1, 2, 3], \"radius\": 5, \"elevation\": 0, \"azimuth\": ";
+    return drawnPoint(drawOne(shell + azimuth + "}}", up));
+  };
+  EXPECT_LE((level("0", UpAxis::Y) - Eigen::Vector3d(1, 2, 8)).norm(), 1e-14);
+  EXPECT_LE((level("90", UpAxis::Y) - Eigen::Vector3d(6, 2, 3)).norm(), 1e-14);
+  EXPECT_LE((level("0", UpAxis::Z) - Eigen::Vector3d(6, 2, 3)).norm(), 1e-14);
+  EXPECT_LE((level("90", UpAxis::Z) - Eigen::Vector3d(1, 7, 3)).norm(), 1e-14);
   GeometryPoint point = geometryPointOf(drawOne("{\"shell\": {\"center\": \"ball\", " + above));
   EXPECT_FALSE(point.onSurface);
   EXPECT_EQ(point.object, "ball");
@@ -87,6 +100,20 @@ TEST(SampleEnds, PointsOnSurfacesMayStandAboveThem)
   EXPECT_EQ(point.object, "ball");
   EXPECT_EQ(point.above, -2.5);
   EXPECT_EQ(geometryPointOf(drawOne("{\"onSurface\": {\"object\": \"ball\"}}")).above, 0);
+}
+
+// A square whose front is towards +z, whichever of its sides are swapped within its plane.
+TEST(SampleEnds, NormalsOfMirroredObjectsAreOnTheirFront)
+{
+  const test::TemporaryFolder folder;
+  writeFile(folder.path("square.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+  for (const Eigen::Vector3d& scale : { Eigen::Vector3d(1, 1, 1), { -1, 1, 1 }, { 1, -2, 1 }, { -1, -1, 1 } })
+  {
+    PlaceScene made;
+    made.add("square", folder.path("square.obj")).scale = scale;
+    const DrawnSurfacePoint point = SampleGeometry(made.scene, PlaceScene::models()).onSurface(0, { 0.1, 0.2, 0.3 });
+    EXPECT_LE((point.normal_in_world - Eigen::Vector3d(0, 0, 1)).norm(), 1e-14) << scale.transpose();
+  }
 }
 
 // Of [0, 1) each choice has a part that begins with its first number.

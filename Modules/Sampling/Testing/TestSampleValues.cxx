@@ -12,9 +12,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -234,6 +236,71 @@ TEST(SampleValues, StratifiedSamplesAreANet)
     }
   }
   EXPECT_LT(kolmogorov(draws(R"({"uniform":[0,1]})", true)[0], [](double x) { return x; }), 0.1);
+}
+
+namespace
+{
+using Stratified = std::array<std::array<double, 4>, 256>;
+
+/// Whether some are in each box of each shape of area 2^t / 256, as in a (t, 8, 2)-net of two dimensions.
+bool isNet(const Stratified& points, std::size_t a, std::size_t b, int t)
+{
+  const int cells = 256 >> t;
+  for (int columns = 1; columns <= cells; columns *= 2)
+  {
+    std::set<int> boxes;
+    for (const auto& point : points)
+    {
+      boxes.insert(int(point[a] * columns) * 256 + int(point[b] * (cells / columns)));
+    }
+    if (int(boxes.size()) != cells)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+} // namespace
+
+// Each dimension alone, Sobol's property A, and the quality of each pair, which is that of Joe and Kuo's numbers alone.
+TEST(SampleValues, StratifiedSamplesAreASobolSequence)
+{
+  Stratified points;
+  std::array<std::set<int>, 4> intervals;
+  for (std::uint32_t i = 0; i < 256; ++i)
+  {
+    const SampleDraws draw(3, 512 + i);
+    const ValueUniforms uniform(draw, "objects/a/position", 0, true);
+    for (std::uint32_t d = 0; d < 4; ++d)
+    {
+      points[i][d] = uniform(d);
+      intervals[d].insert(int(points[i][d] * 256));
+    }
+  }
+  for (const std::set<int>& hit : intervals)
+  {
+    EXPECT_EQ(hit.size(), 256U);
+  }
+  for (std::size_t first = 0; first < 256; first += 16)
+  {
+    std::set<int> corners;
+    for (std::size_t i = first; i < first + 16; ++i)
+    {
+      const auto& [x, y, z, w] = points[i];
+      corners.insert((x < 0.5 ? 0 : 1) + (y < 0.5 ? 0 : 2) + (z < 0.5 ? 0 : 4) + (w < 0.5 ? 0 : 8));
+    }
+    EXPECT_EQ(corners.size(), 16U) << first;
+  }
+  struct Pair
+  {
+    std::size_t a, b;
+    int least;
+  };
+  for (const auto& [a, b, least] : { Pair{ 0, 1, 0 }, { 0, 2, 1 }, { 0, 3, 1 }, { 1, 2, 1 }, { 1, 3, 2 }, { 2, 3, 1 } })
+  {
+    EXPECT_TRUE(isNet(points, a, b, least)) << a << b;
+    EXPECT_FALSE(least > 0 && isNet(points, a, b, least - 1)) << a << b;
+  }
 }
 
 TEST(SampleValues, NormalTailsAreThoseOfTheLibrary)

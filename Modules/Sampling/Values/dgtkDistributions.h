@@ -21,7 +21,7 @@ struct GeometryPoint
 {
   bool onSurface = false; ///< of the object; otherwise relative to its centre
   std::string object;     ///< name, or of a centre a pattern
-  /// Distance from the centre; of a surface: the three uniforms of pointOnSurface().
+  /// Distance from the centre; of a surface: the three uniforms of SampleGeometry::onSurface().
   Eigen::Vector3d numbers{ 0, 0, 0 };
   double above = 0; ///< of a surface: along its normal
 };

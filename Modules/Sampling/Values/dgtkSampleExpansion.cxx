@@ -130,10 +130,18 @@ void SampleExpansion::tell(const std::string& path, const JsonNode& drawn)
 
 void SampleExpansion::forget(const std::string& camera)
 {
-  while (this->Values != nullptr && !this->Values->empty() && this->Values->back().path.rfind(camera + '/', 0) == 0)
+  if (this->Values == nullptr)
   {
-    this->Told.erase(this->Values->back().path);
-    this->Values->pop_back();
+    return;
+  }
+  // Those of other cameras of its rig may stand behind them.
+  this->Values->erase(std::remove_if(this->Values->begin(), this->Values->end(),
+                        [&](const auto& one) { return one.path.rfind(camera + '/', 0) == 0; }),
+    this->Values->end());
+  this->Told.clear();
+  for (std::size_t i = 0; i < this->Values->size(); ++i)
+  {
+    this->Told.emplace((*this->Values)[i].path, i);
   }
 }
 

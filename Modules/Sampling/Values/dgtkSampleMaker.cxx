@@ -47,20 +47,25 @@ SceneDescription SampleMaker::readTree(const JsonNode& tree) const
   return readSceneTree(document, this->Scene.file(), this->Scene.folder());
 }
 
+void SampleMaker::readObjects()
+{
+  this->Geometry.reset();
+  this->Objects = this->readTree(objectsAlone(this->Tree));
+  this->Geometry.emplace(this->Objects, this->Models);
+}
+
 bool SampleMaker::settle(JsonNode& node, const std::string& shown, const std::set<std::size_t>& waiting)
 {
   bool all = true;
   replacePoints(node, shown,
     [&](const JsonNode& at, const std::string& path, Eigen::Vector3d& x)
     {
-      if (!this->Known)
+      if (!this->Geometry)
       {
-        this->Objects = this->readTree(objectsAlone(this->Tree));
-        this->Known = true;
+        this->readObjects();
       }
       const GeometryPoint point = geometryPointOf(at);
-      const std::vector<std::string> names = objectNamesOf(this->Objects);
-      const std::vector<std::size_t> found = objectsLike(names, point.object);
+      const std::vector<std::size_t>& found = this->Geometry->like(point.object);
       if (found.empty() && !objectsLike(this->Gone, point.object).empty())
       {
         throw SampleRefused(path, quoted(point.object) + " is left out of the sample", 1);
@@ -75,7 +80,7 @@ bool SampleMaker::settle(JsonNode& node, const std::string& shown, const std::se
       all = all && !waits;
       if (!waits)
       {
-        x = SampleGeometry(this->Objects, this->Models).at(point, found);
+        x = this->Geometry->at(point, found);
       }
       return !waits;
     });
@@ -113,8 +118,7 @@ void SampleMaker::settleObjects(bool placed)
     {
       return;
     }
-    this->Objects = this->readTree(objectsAlone(this->Tree));
-    this->Known = true;
+    this->readObjects();
     const std::set<std::size_t> waiting = this->waitingObjects(placed);
     bool moved = false;
     for (std::size_t i = 0; i < items.size(); ++i)
@@ -128,7 +132,7 @@ void SampleMaker::settleObjects(bool placed)
     }
     if (moved)
     {
-      this->Known = false;
+      this->Geometry.reset();
       continue;
     }
     for (std::size_t i = 0; i < items.size(); ++i)
@@ -148,7 +152,8 @@ void SampleMaker::place()
   {
     return;
   }
-  this->Objects = this->readTree(objectsAlone(this->Tree));
+  this->readObjects();
+  this->Geometry.reset(); // which move now
   std::vector<SampleRule> rules;
   for (Rule& rule : this->Rules)
   {
@@ -191,7 +196,7 @@ void SampleMaker::leaveOut()
   }
   removeItems(this->Tree, "objects", out);
   removeWords(this->Tree, "object", out);
-  this->Known = false;
+  this->Geometry.reset();
 }
 
 SampleWorld& SampleMaker::world()

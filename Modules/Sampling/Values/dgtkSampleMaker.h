@@ -33,6 +33,7 @@ private:
   SceneDescription readTree(const JsonNode& tree) const;
   /// Replaces the points below a node whose objects have their places; true when all are.
   bool settle(JsonNode& node, const std::string& shown, const std::set<std::size_t>& waiting);
+  void readObjects();
   void settleObjects(bool placed);
   std::set<std::size_t> waitingObjects(bool placed);
   void place();
@@ -57,7 +58,7 @@ private:
   JsonNode Tree;
   std::vector<Rule> Rules;                       ///< of objects
   SceneDescription Objects;                      ///< of the tree; as far as their places are known
-  bool Known = false;                            ///< `Objects` is read
+  std::optional<SampleGeometry> Geometry;        ///< of `Objects`, when these are read
   std::vector<std::string> Gone;                 ///< names of objects that are left out
   std::set<std::size_t> Out;                     ///< the same, indices
   std::unique_ptr<SampleWorld> World;            ///< when all objects are where they belong

@@ -91,7 +91,7 @@ TEST_F(PovLook, LensIsAsLargeAsTheScene)
   options.lens = PovLens{ 0.25, 7 };
   const std::string text = this->write(options);
   EXPECT_EQ(lookAfter(text, "aperture "), 0.25 * this->Result.scale);
-  EXPECT_THAT(text, HasSubstr("focal_point <0, 0, 7>"));
+  EXPECT_THAT(text, HasSubstr("focal_point <0, 0, 7> blur_samples 128 variance 0\n"));
 }
 
 TEST_F(PovLook, AmbientLightIsTheWorldsAndThatOfTheLights)
@@ -105,7 +105,7 @@ TEST_F(PovLook, AmbientLightIsTheWorldsAndThatOfTheLights)
   options.radiosity = true;
   const std::string text = this->write(options);
   EXPECT_EQ(colorAfter(text, "ambient_light"), Eigen::Vector3d(0, 0, 0));
-  EXPECT_THAT(text, HasSubstr("radiosity {"));
+  EXPECT_THAT(text, HasSubstr("radiosity { count 150 nearest_count 10 "));
 }
 
 TEST_F(PovLook, OnlyAmbientLightThatShouldFallOffIsNoted)

@@ -209,6 +209,41 @@ TEST(DepthSensor, DropOutAtEdgesStaysWithinTheirRadius)
   EXPECT_LT(validPart(measure(setupOf(p), far)), 1);
 }
 
+TEST(DepthSensor, ASurfaceBesideNoneIsAtAnEdge)
+{
+  DepthSensorParameters p;
+  p.dropout.edge = 1;
+  DepthSensorSetup setup = setupOf(p);
+  setup.width = 100;
+  setup.height = 3;
+  const std::vector<double> depth = measure(setup, [](int x, int) { return x < 50 ? infinity : 2.0; });
+  for (int x = 0; x < 100; ++x)
+  {
+    EXPECT_EQ(std::isfinite(depth[std::size_t(100 + x)]), x > 50) << x;
+  }
+}
+
+// Disparities 20.4 on the right and 10.2 on the left, which is hidden; the jump is within reach of all.
+TEST(DepthSensor, WhatIsHiddenAndAtAnEdgeMayDropOutForEither)
+{
+  DepthSensorParameters p;
+  p.stereo.baseline = 0.034;
+  p.dropout.occluded = 0.5;
+  p.dropout.edge = 0.5;
+  p.dropout.edgeRadius = 10;
+  DepthSensorSetup setup = setupOf(p);
+  setup.width = 20;
+  const std::vector<double> depth = measure(setup, [](int x, int) { return x < 10 ? 2.0 : 1.0; });
+  double left = 0;
+  double right = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i)
+  {
+    (i % 20 < 10 ? left : right) += std::isfinite(depth[i]) ? 1e-4 : 0; // of 10,000 pixels each
+  }
+  EXPECT_NEAR(left, 0.25, 0.025); // the limits are five standard errors and more
+  EXPECT_NEAR(right, 0.5, 0.025);
+}
+
 TEST(DepthSensor, WhatTheSecondViewpointCannotSeeDropsOut)
 {
   // A block at 1 before a wall at 2: disparities 20.4 and 10.2, so that the 10 columns left of the block are hidden.

@@ -255,6 +255,32 @@ TEST(GradientNoise, OctavesAddUp)
   EXPECT_NE(sensor::GradientNoise(p, random).at(13, 21), first);
 }
 
+TEST(GradientNoise, OctavesHaveGradientsOfTheirOwn)
+{
+  const CounterRandom random(3, 1, 0, 0);
+  TextureParameters p;
+  p.amplitude = 1;
+  p.persistence = 1;
+  p.period = 8;
+  p.octaves = 1;
+  const sensor::GradientNoise first(p, random);
+  p.octaves = 2;
+  const sensor::GradientNoise both(p, random);
+  p.octaves = 1;
+  p.period = 4;
+  const sensor::GradientNoise finer(p, random);
+  double own = 0;
+  double product = 0;
+  for (int i = 0; i < 200 * 200; ++i)
+  {
+    const double second = both.at(i % 200, i / 200) - first.at(i % 200, i / 200);
+    own += second * second;
+    product += second * finer.at(i % 200, i / 200);
+  }
+  EXPECT_GT(own / (200 * 200), 0.05);
+  EXPECT_NEAR(product / own, 0, 0.1); // of 2,500 cells
+}
+
 /// What leaves the sensor is what leaves it without a code, coded.
 TEST(ImageSensor, ThePictureIsCodedLast)
 {
@@ -362,6 +388,83 @@ TEST(ImageSensor, OneBitIsBlackOrWhite)
   for (std::size_t x = 0; x < 101; ++x)
   {
     EXPECT_EQ(image[3 * x], x < 50 ? 0.0F : 1.0F) << x;
+  }
+}
+
+// Documentation/Formats/sensor.md
+TEST(Sensor, TheDefaultsAreThoseOfTheDocumentation)
+{
+  const ColorSensorParameters color = defaultColorSensor();
+  EXPECT_EQ(color.psf.gaussian, 0.6);
+  EXPECT_EQ(color.vignetting.cos4, 1);
+  EXPECT_EQ(color.fullWell, 10000);
+  EXPECT_TRUE(color.shotNoise);
+  EXPECT_EQ(color.prnu, 0.005);
+  EXPECT_EQ(color.dsnu, 1);
+  EXPECT_EQ(color.readNoise, 2.5);
+  EXPECT_EQ(color.bits, 12);
+  EXPECT_EQ(color.bayer, BayerPattern::RGGB);
+  const DepthSensorParameters depth = defaultDepthSensor();
+  EXPECT_EQ(depth.kinect.axial, 1);
+  EXPECT_EQ(depth.kinect.lateral, 1);
+  EXPECT_EQ(depth.least, 0.4);
+  EXPECT_EQ(depth.most, 8);
+  EXPECT_EQ(depth.dropout.edge, 0.5);
+  EXPECT_EQ(depth.dropout.grazing, 0.5);
+}
+
+// 200 x 200 pixels: the standard error of a correlation is 0.005.
+TEST(ImageSensor, TheFixedPatternsOfColoursAreIndependent)
+{
+  ImageSensorSetup setup = partsOf(idealLinear());
+  setup.width = setup.height = 200;
+  setup.parameters.prnu = 0.02;
+  const std::vector<float> image = expose(setup, evenly(0.5));
+  const Statistics all = statisticsOf(image);
+  EXPECT_NEAR(std::sqrt(all.variance) / (0.5 * 0.02), 1, 0.02);
+  double between[3] = {};
+  for (std::size_t i = 0; i < image.size(); ++i)
+  {
+    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+    between[i % 3] += (image[i] - all.mean) * (image[next] - all.mean) / (200 * 200);
+  }
+  for (const double covariance : between)
+  {
+    EXPECT_NEAR(covariance / all.variance, 0, 0.03);
+  }
+}
+
+// Beyond the edge of an image its outermost row or column goes on.
+TEST(ImageSensor, BlurRepeatsTheEdges)
+{
+  constexpr int size = 9;
+  ImageSensorSetup setup = partsOf(idealLinear());
+  setup.width = setup.height = size;
+  setup.parameters.psf.gaussian = 0.6; // reaches three pixels
+  const auto weight = [](int i) { return std::exp(-i * i / (2 * 0.6 * 0.6)); };
+  double sum = 0;
+  for (int i = -3; i <= 3; ++i)
+  {
+    sum += weight(i);
+  }
+  for (const bool across : { true, false })
+  {
+    for (const int lit : { 0, size - 1 })
+    {
+      const std::vector<float> image =
+        expose(setup, [&](int x, int y, int) { return (across ? x : y) == lit ? 1.0 : 0.0; });
+      for (int distance = 0; distance < size; ++distance)
+      {
+        double expected = 0;
+        for (int i = distance; i <= 3; ++i)
+        {
+          expected += weight(i) / sum;
+        }
+        const int at = std::abs(lit - distance);
+        const float found = image[std::size_t(across ? 4 * size + at : at * size + 4) * 3];
+        EXPECT_NEAR(found, expected, 1e-6) << across << ' ' << lit << ' ' << distance;
+      }
+    }
   }
 }
 

@@ -183,6 +183,50 @@ TEST(EnvironmentLight, RougherSurfacesSeeWiderLobes)
   }
 }
 
+// The lobe of the facets seen along the normal, D (n h) / (4 (v h)), times the light's cosine. It is made of few looks,
+// each at a picture as coarse as the part of the lobe that it stands for: what is left is even to a quarter.
+TEST(EnvironmentLight, OneBrightTexelIsSpreadOverTheLobe)
+{
+  constexpr int width = EnvironmentLight::width;
+  RadianceImage image{ width, width / 2, std::vector<float>(std::size_t(width) * width / 2 * 3) };
+  image.rgb[(std::size_t(width / 4) * width + width / 2) * 3] = 1e5F;
+  const Eigen::Vector3d sun = towards(0.5 + 0.5 / width, 0.5 + 1.0 / width);
+  const double power = 1e5 * 2 * M_PI / width * 2 * M_PI / width; // near the equator
+  const EnvironmentLight light = environmentLight(image, 1);
+  for (int level = 1; level < EnvironmentLight::levels; ++level)
+  {
+    const double a2 = std::pow(level / 5.0, 4);
+    const auto lobe = [a2](double cosine)
+    {
+      const double spread = (1 + cosine) / 2 * (a2 - 1) + 1;
+      return cosine > 0 ? cosine * a2 / (4 * M_PI * spread * spread) : 0;
+    };
+    double whole = 0;
+    constexpr int steps = 100000;
+    for (int i = 0; i < steps; ++i)
+    {
+      whole += lobe((i + 0.5) / steps) * 2 * M_PI / steps;
+    }
+    double sum = 0;
+    double expectedSum = 0;
+    double differences = 0;
+    const int columns = width >> level;
+    for (int i = 0; i < columns * columns / 2; ++i)
+    {
+      const double down = (i / columns + 0.5) / (columns / 2); // NOLINT: of the row
+      const Eigen::Vector3d d = towards((i % columns + 0.5) / columns, down);
+      const double expected = power * lobe(d.dot(sun)) / whole;
+      const double found = light.reflectedFrom(d, level / 5.0).x();
+      const double area = std::sin(down * M_PI);
+      sum += area * found;
+      expectedSum += area * expected;
+      differences += area * std::abs(found - expected);
+    }
+    EXPECT_NEAR(sum / expectedSum, 1, 0.1) << level;
+    EXPECT_LE(differences / expectedSum, 0.35) << level;
+  }
+}
+
 TEST(EnvironmentLight, RoughnessIsInterpolatedBetweenTheLevels)
 {
   EnvironmentLight light;

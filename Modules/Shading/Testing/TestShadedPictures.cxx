@@ -158,6 +158,15 @@ TEST(ShadedPictures, LightGoesThroughGlassAndHoles)
   const auto opaque = matte(makeQuad(quad));
   const auto glass = matte(makeQuad(quad));
   glass->materials[0].opacity = 0.5;
+  const auto tinted = matte(makeQuad(quad));
+  tinted->colors.assign(tinted->rest->positions.size(), { 255, 255, 255, 0 });
+  const auto mapped = matte(makeQuad(quad));
+  Image clear;
+  clear.width = clear.height = 1;
+  clear.rgba = { 255, 255, 255, 0 };
+  clear.hasAlpha = true;
+  mapped->colorMap = std::make_shared<Image>(clear);
+  mapped->colorMapAt.assign(mapped->rest->positions.size(), { 0.5, 0.5 });
   const auto leaf = matte(makeQuad(quad));
   addCutOut(*leaf, 2, 3);
   const auto litShare = [](const std::shared_ptr<Model>& cover)
@@ -186,6 +195,8 @@ TEST(ShadedPictures, LightGoesThroughGlassAndHoles)
   };
   EXPECT_EQ(litShare(opaque), 0);
   EXPECT_EQ(litShare(glass), 1);
+  EXPECT_EQ(litShare(tinted), 1);
+  EXPECT_EQ(litShare(mapped), 1);
   const double holes = litShare(leaf);
   EXPECT_GT(holes, 0.1);
   EXPECT_LT(holes, 0.9);

@@ -142,6 +142,21 @@ TEST(PhongLaw, PicturesOfEmissions)
   }
 }
 
+TEST(PhongLaw, WhereALostPictureOfEmissionsWouldGlowNothingDoes)
+{
+  const auto model = mappedGround({ { 51, 102, 204 } });
+  model->textures.push_back({ "lost", "lost.png", nullptr });
+  Material& material = model->materials[0];
+  material.ambient = { 1, 0.5, 0.25 };
+  material.emission = { 0.25, 0.5, 0.125 };
+  material.emissionMap = 1;
+  const Picture picture = draw(SceneBuilder().add(model).state(), fromAbove());
+  for (int c = 0; c < 3; ++c)
+  {
+    EXPECT_NEAR(picture.at(80, 60, c), 0.2 * material.ambient[c], 0.02 * step) << c; // the light of the world
+  }
+}
+
 /// Walter et al. 2007, in linear light, with all pictures, two lights and fog.
 TEST(PhysicalLaw, IsTheSumOfItsTerms)
 {
@@ -205,4 +220,38 @@ TEST(PhysicalLaw, IsTheSumOfItsTerms)
         ASSERT_NEAR(picture.at(x, y, c), display(fog + (sum - fog) * clear), 0.05 * step) << x << ' ' << y << ' ' << c;
       }
     });
+}
+
+/// Under a sky of one colour a smooth metal has it times Schlick's reflectance.
+TEST(PhysicalLaw, SmoothMetalUnderAnEvenSky)
+{
+  const auto model = groundModel(20);
+  Material& material = model->materials[0];
+  material.diffuse = { 0.3, 0.5, 0.8 };
+  material.physical = Material::Physical{ 1, 0, true };
+  const auto state = SceneBuilder().add(model).state();
+  auto sky = std::make_shared<EnvironmentState>();
+  sky->image = std::make_shared<RadianceImage>(RadianceImage{ 1, 1, { 0.5F, 0.5F, 0.5F } });
+  state->environment = sky;
+  ViewOptions options;
+  options.width = 160;
+  options.height = 120;
+  options.eye = { 0, 2, 6 };
+  const View view = makeView(options);
+  const Eigen::Vector3d eye = view.camera_from_world.inverse().translation;
+  const Picture picture = draw(state, view);
+  double least = 1;
+  forGround(view, picture,
+    [&](int x, int y, const Eigen::Vector3d& p)
+    {
+      const double cosine = (eye - p).normalized().y();
+      least = std::min(least, cosine);
+      for (int c = 0; c < 3; ++c)
+      {
+        const double f0 = linear(material.diffuse[c]);
+        const double expected = 0.5 * (f0 + (1 - f0) * std::pow(1 - cosine, 5));
+        ASSERT_NEAR(linear(picture.at(x, y, c)), expected, 0.0015) << cosine << " channel " << c; // of a table
+      }
+    });
+  EXPECT_LT(least, 0.15);
 }
