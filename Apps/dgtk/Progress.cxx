@@ -107,7 +107,10 @@ void Progress::update(std::size_t done, std::size_t total, std::size_t kept)
   const double rate = (done - kept) / std::max(this->seconds(), 1e-9);
   const std::string state = std::to_string(done) + '/' + std::to_string(total) + ' ' + this->Unit + ", " +
                             std::to_string(rate).substr(0, 5) + "/s, " +
-                            (done > kept ? duration((total - done) / rate) : std::string("?")) + " left";
+                            (done > kept      ? duration((total - done) / rate)
+                              : done == total ? duration(0)
+                                              : std::string("?")) +
+                            " left";
   if (!this->Terminal)
   {
     std::fprintf(stderr, "%s\n", state.c_str());

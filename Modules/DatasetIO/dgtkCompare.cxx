@@ -279,7 +279,12 @@ std::optional<std::uint64_t> pixelsOf(const std::string& file)
   }
   catch (const InputError&)
   {
-    return std::nullopt;
+    const std::string head = readFile(file).substr(0, 4);
+    if (head == "\x89PNG" || head == "\x93NUM")
+    {
+      return std::nullopt;
+    }
+    throw;
   }
 }
 } // namespace

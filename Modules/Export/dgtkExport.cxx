@@ -59,7 +59,7 @@ ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& 
   }
   for (const std::string& scene : scenes) // none is begun before all are known to be sayable
   {
-    static_cast<void>(ExportRun(sceneExport(request, scene), {}));
+    ExportRun(sceneExport(request, scene), {}).requireOneEach();
   }
   ExportResult all;
   for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)

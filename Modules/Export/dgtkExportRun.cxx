@@ -87,7 +87,6 @@ ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callba
   }
   this->Total = this->all();
   this->Hash = this->identity();
-  this->requireOneEach();
 }
 
 ExportItem ExportRun::item(std::size_t index) const
@@ -192,6 +191,7 @@ ForNames ExportRun::announced() const
 
 ExportResult ExportRun::execute()
 {
+  this->requireOneEach();
   if (this->Request.resume && this->Request.replace)
   {
     throw UsageError("a run is either resumed or replaced");

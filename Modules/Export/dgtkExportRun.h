@@ -36,6 +36,8 @@ public:
   /// The whole export from the folders of its blocks, which stay; into the request's folder.
   ExportResult executeFrom(const std::vector<std::pair<std::string, ItemRange>>& blocks);
 
+  /// Throws UsageError where one file would be written over another; execute() asks, too.
+  void requireOneEach() const;
   /// Of format, dataset and all that decides bytes.
   const std::string& hash() const { return this->Hash; }
   std::size_t items() const { return this->Items; } ///< without documents
@@ -46,7 +48,6 @@ private:
   TextPairs described() const;
   std::string identity() const;
   void forNames(const std::function<void(const std::string&)>& visit) const;
-  void requireOneEach() const;
   ForNames announced() const;
   bool isKept(std::size_t item) const;
   void writeItems(const ItemRange& range);

@@ -182,6 +182,7 @@ ExportResult shardOfScenes(const ExportRequest& request, const std::vector<std::
 ExportResult shardOfItems(const ExportRequest& request, const RunShard& shard, const ExportCallbacks& callbacks)
 {
   ExportRun whole(request, callbacks);
+  whole.requireOneEach();
   if (!hasParts(request.folder) && holdsExport(request.folder, whole.hash(), false))
   {
     return {};

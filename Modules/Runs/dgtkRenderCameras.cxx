@@ -228,8 +228,8 @@ void RenderCameras::showLens()
   }
   const int frame = this->State.frame();
   this->Fov->setValues({ byMatrix   ? fieldOfViewOf(*camera)
-                         : parallel ? camera->viewHeight.at(frame)
-                                    : camera->fovY.at(frame) });
+                         : parallel ? boundedAt(camera->viewHeight, frame)
+                                    : boundedAt(camera->fovY, frame) });
   this->Aspect->setValues({ camera->aspect });
   this->Near->setValues({ camera->near });
   this->Far->setValues({ camera->far });
@@ -292,14 +292,17 @@ void RenderCameras::showResolution()
   }
   const QSize size = this->commonSize().value_or(QSize(0, 0)); // 0: its own
   View view;
+  const int frame = this->State.frame();
   try
   {
-    view = cameraView(*camera, this->State.frame(), size.width(), size.height(), scene.folder);
+    view = cameraView(*camera, frame, size.width(), size.height(), scene.folder);
   }
-  catch (const Error&)
+  catch (const Error& error)
   {
+    const bool placed = camera->posed || camera->eye.at(frame) != camera->lookAt.at(frame);
     this->Resolution->setText(
-      tr("%1 has no pose at this frame: its eye is at its look-at point.").arg(toText(camera->name)));
+      placed ? toText(error.what())
+             : tr("%1 has no pose at this frame: its eye is at its look-at point.").arg(toText(camera->name)));
     return;
   }
   const WorldResolution resolution = worldResolution(view);

@@ -3,6 +3,7 @@
 #define dgtkKeptViews_h
 
 #include "dgtkCameraModel.h"
+#include "dgtkSceneDescription.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,10 +23,15 @@ class KeptViews
 public:
   using Moment = std::tuple<double, int, int>; ///< frame, width, height
 
-  /// That of a camera; made by `make()` where it isn't known.
+  /// That of a camera; made by `make()` where it isn't known. One with a table of rays, which is large, is not kept.
   template <typename Make>
-  View at(std::size_t camera, std::size_t cameras, const Moment& moment, const Make& make)
+  View at(const std::vector<CameraDescription>& cameras, std::size_t camera, const Moment& moment, const Make& make)
   {
+    const auto& parameters = cameras[camera].parameters;
+    if (std::any_of(parameters.begin(), parameters.end(), [](const auto& one) { return !one.second.file.empty(); }))
+    {
+      return make();
+    }
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
       const auto known = this->find(moment);
@@ -38,7 +44,7 @@ public:
     const std::lock_guard<std::mutex> lock(this->Mutex);
     if (this->find(moment) == this->Latest.end())
     {
-      this->Latest.emplace_back(moment, cameras);
+      this->Latest.emplace_back(moment, cameras.size());
     }
     this->find(moment)->second[camera] = view;
     if (this->Latest.size() > most)

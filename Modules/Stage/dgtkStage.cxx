@@ -413,7 +413,7 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
     }
     return cameraView(camera, frame, width, height, scene.folder);
   };
-  View view = this->Self->Views.at(index, scene.cameras.size(), { frame, width, height }, make);
+  View view = this->Self->Views.at(scene.cameras, index, { frame, width, height }, make);
   if (view.model->rolls())
   {
     view.instants = std::make_shared<Instants>(this->shared_from_this(), index, frame);

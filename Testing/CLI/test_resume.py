@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from harness import DGTK, SCENES, Case, digests, load_json, main
+from harness import DGTK, SCENES, Case, digests, ended, load_json, main
 
 SCENE = os.path.join(SCENES, "fig_4_14_bouncing_ball.scene")
 OPTIONS = ("--quiet", "--layers", "color,depth,objects,calibration", "--size", "320x240")
@@ -93,7 +93,7 @@ class Resume(Case):
         """While the only row of tiles of a picture is drawn, between whose ends nothing looks for the first one."""
         words = [DGTK, "render", SCENE, "-o", self.path("x"), "--quiet", "--layers", "color", "--size", "4096x4096", "--tile", "4096x4096",
                  "--samples", "16", "--visibility", "ray", "--frames", "0", "--threads", "1"]
-        with subprocess.Popen(words) as process:
+        with ended(subprocess.Popen(words)) as process:
             def told(name):
                 with open(f"/proc/{process.pid}/{name}", encoding="utf-8") as file:
                     return file.read()

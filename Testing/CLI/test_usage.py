@@ -6,7 +6,7 @@ import re
 import subprocess
 import time
 
-from harness import DGTK, SCENES, SOURCE, Case, main
+from harness import DGTK, SCENES, SOURCE, Case, ended, main
 
 SCENE = os.path.join(SCENES, "demo.json")
 
@@ -91,9 +91,8 @@ class Usage(Case):
         scene = self.write("long.json", json.dumps({"keyFrames": [0, 299999], "objects": [{"model": "quad.obj"}],
                                                     "cameras": [{"eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}))
         words = (DGTK, "render", scene, "-o", self.path("x"), "--layers", "color", "--size", "128x96", "--samples", "16", "--threads", "1")
-        with subprocess.Popen(words, stderr=subprocess.PIPE, text=True, env={**os.environ, "DGTK_PROGRESS": "0.01"}) as process:
-            line = next(line for line in process.stderr if not line.startswith("0/"))
-            process.kill()
+        with ended(subprocess.Popen(words, stderr=subprocess.PIPE, text=True, env={**os.environ, "DGTK_PROGRESS": "0.01"})) as process:
+            line = next(line for line in process.stderr if re.match("[1-9][0-9]*/", line))
         told = re.match(r"(\d+)/300000 pictures, ([\d.]+)/s, (\d+):([0-5]\d):([0-5]\d) left$", line)
         self.assertTrue(told, line)
         done, rate, hours, minutes, seconds = map(float, told.groups())

@@ -48,7 +48,8 @@ void TestEditorWalk::aCameraOfATable()
   }
   rays.close();
   std::ofstream(this->path("table.json").toStdString())
-    << R"({"cameras":[{"name":"table","model":"raytable","rays":"rays.npy","width":2,"height":2,"eye":[0,0,5],"lookAt":[0,0,0]}]})";
+    << R"({"cameras":[{"name":"table","model":"raytable","rays":"rays.npy","width":2,"height":2,)"
+       R"("eye":[0,0,5],"lookAt":[0,0,0]}]})";
   QVERIFY(this->Window->openFile(this->path("table.json")));
   this->choose("render");
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");

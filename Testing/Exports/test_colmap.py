@@ -88,7 +88,7 @@ def projected(camera, x):
 
 
 def colmap(*arguments):
-    done = subprocess.run(["colmap", *map(str, arguments)], capture_output=True, text=True, timeout=250, env={**os.environ, "QT_QPA_PLATFORM": "offscreen"})
+    done = subprocess.run(["colmap", *map(str, arguments)], capture_output=True, text=True, timeout=250, env={**os.environ, "QT_QPA_PLATFORM": "offscreen", "GLOG_logtostderr": "1"})
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     return done.stdout + done.stderr
 

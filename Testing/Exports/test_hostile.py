@@ -112,7 +112,7 @@ class Hostile(datasets.ExportCase):
         self.written({path: data, os.path.join(folder, "export.json"): sealed(document)})
         with self.subTest(name=name, says=says):
             done = subprocess.run([DGTK, "verify", self.dataset, "--export", folder], capture_output=True, text=True, timeout=60,
-                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MOST, MOST)))
+                                  preexec_fn=None if os.environ.get("DGTK_TEST_SANITIZED") else lambda: resource.setrlimit(resource.RLIMIT_AS, (MOST, MOST)))
             self.assertIn(done.returncode, (1, 3), done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
             for word in (name, says):

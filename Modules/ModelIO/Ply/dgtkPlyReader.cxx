@@ -314,8 +314,9 @@ private:
     const int numbers = element.find({ "texnumber" });
     const PlyColor colors(element);
     const bool colored = colors.exists() && !this->HasColors;
-    this->HasNumbers = this->HasNumbers || numbers >= 0;
-    this->LostColors = this->LostColors || (colors.exists() && this->HasColors);
+    const bool ofFaces = ends[0] < 0 || ends[1] < 0;
+    this->HasNumbers = this->HasNumbers || (ofFaces && numbers >= 0);
+    this->LostColors = this->LostColors || (ofFaces && colors.exists() && this->HasColors);
     std::vector<double> row(element.properties.size() + 1, 0);
     std::vector<double> list;
     std::vector<double> uvs;

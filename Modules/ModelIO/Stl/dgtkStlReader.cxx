@@ -31,12 +31,27 @@ bool is(std::string_view word, std::string_view known)
                                           [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
-/// Headers of binary files may say "solid", too: these have a zero, if only in their count of triangles.
-bool isText(const std::string& bytes)
+/// Headers of binary files may say "solid", too. Their length is that of their count of triangles, or they have a zero
+/// and no facet's word.
+bool isText(const std::string& path, const std::string& bytes)
 {
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  return start != std::string::npos && is(std::string_view(bytes).substr(start, 5), "solid") &&
-         bytes.find('\0') == std::string::npos;
+  if (start == std::string::npos || !is(std::string_view(bytes).substr(start, 5), "solid"))
+  {
+    return false;
+  }
+  if (bytes.size() >= headerBytes)
+  {
+    const std::uint64_t facets = ByteReader(path, bytes).u32(headerBytes - 4);
+    if (bytes.size() == headerBytes + facets * facetBytes)
+    {
+      return false;
+    }
+  }
+  constexpr std::string_view word = "facet";
+  return bytes.find('\0') == std::string::npos ||
+         std::search(bytes.begin(), bytes.end(), word.begin(), word.end(),
+           [](unsigned char a, unsigned char b) { return std::tolower(a) == b; }) != bytes.end();
 }
 
 Solid readBinary(const std::string& path, const std::string& bytes, bool& colored)
@@ -201,7 +216,7 @@ ModelContents readStl(const std::string& path, const ReadOptions& options)
   const std::string bytes = readFile(path);
   ModelBuilder builder(path, "stl", bytes.size(), options);
   bool colored = false;
-  if (isText(bytes))
+  if (isText(path, bytes))
   {
     for (const Solid& solid : readText(path, bytes))
     {

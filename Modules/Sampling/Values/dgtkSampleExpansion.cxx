@@ -135,9 +135,13 @@ void SampleExpansion::forget(const std::string& camera)
     return;
   }
   // Those of other cameras of its rig may stand behind them.
-  this->Values->erase(std::remove_if(this->Values->begin(), this->Values->end(),
-                        [&](const auto& one) { return one.path.rfind(camera + '/', 0) == 0; }),
-    this->Values->end());
+  const auto end = std::remove_if(
+    this->Values->begin(), this->Values->end(), [&](const auto& one) { return one.path.rfind(camera + '/', 0) == 0; });
+  if (end == this->Values->end())
+  {
+    return;
+  }
+  this->Values->erase(end, this->Values->end());
   this->Told.clear();
   for (std::size_t i = 0; i < this->Values->size(); ++i)
   {

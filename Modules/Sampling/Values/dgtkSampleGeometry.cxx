@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dgtk
 {
@@ -98,18 +99,19 @@ Eigen::Vector3d SampleGeometry::Surface::normal(std::size_t triangle) const
 
 const SampleGeometry::Surface& SampleGeometry::surface(std::size_t object) const
 {
-  const auto [known, isNew] = this->Surfaces.try_emplace(object);
-  Surface& surface = known->second;
-  if (isNew)
+  const auto known = this->Surfaces.find(object);
+  if (known != this->Surfaces.end())
   {
-    surface.model = this->Models.model(this->Scene.resolve(this->Scene.objects[object].model));
-    surface.world_from_object = this->world_from_object(object);
-    for (std::size_t t = 0; t < surface.model->triangles.size(); ++t)
-    {
-      surface.sums.push_back((t == 0 ? 0 : surface.sums.back()) + surface.normal(t).norm());
-    }
+    return known->second;
   }
-  return surface;
+  Surface surface;
+  surface.model = this->Models.model(this->Scene.resolve(this->Scene.objects[object].model));
+  surface.world_from_object = this->world_from_object(object);
+  for (std::size_t t = 0; t < surface.model->triangles.size(); ++t)
+  {
+    surface.sums.push_back((t == 0 ? 0 : surface.sums.back()) + surface.normal(t).norm());
+  }
+  return this->Surfaces.emplace(object, std::move(surface)).first->second;
 }
 
 DrawnSurfacePoint SampleGeometry::onSurface(std::size_t object, const std::array<double, 3>& uniforms) const

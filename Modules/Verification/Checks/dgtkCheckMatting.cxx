@@ -29,10 +29,15 @@ struct MattingSet
 std::uint32_t objectOf(const Dataset& dataset, const std::string& layer)
 {
   const std::string name = layer.substr(std::string("matting_").size());
-  const auto found = std::find_if(dataset.objects().begin(), dataset.objects().end(),
-    [&](const ObjectRecord& object)
-    { return name[0] == '#' ? '#' + std::to_string(object.id) == name : object.name == name; });
-  return found == dataset.objects().end() ? 0 : found->id;
+  const std::vector<ObjectRecord>& objects = dataset.objects();
+  auto found = std::find_if(objects.begin(), objects.end(),
+    [&](const ObjectRecord& object) { return '#' + std::to_string(object.id) == name; });
+  if (found == objects.end())
+  {
+    found =
+      std::find_if(objects.begin(), objects.end(), [&](const ObjectRecord& object) { return object.name == name; });
+  }
+  return found == objects.end() ? 0 : found->id;
 }
 
 /// composite = (alpha F + (65535 - alpha) B + 32767) / 65535, rounded down.

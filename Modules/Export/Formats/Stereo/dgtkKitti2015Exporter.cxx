@@ -82,7 +82,8 @@ std::map<std::uint32_t, std::uint32_t> objectCodes(const DatasetView& dataset, c
   {
     if (std::find(known.begin(), known.end(), name) == known.end())
     {
-      throw UsageError("foreground: no class " + quoted(name) + " (expected one of " + joined(known, ", ") + ')');
+      throw UsageError("foreground: no class " + quoted(name) +
+                       (known.empty() ? ": the dataset has none" : " (expected one of " + joined(known, ", ") + ')'));
     }
   }
   std::map<std::uint32_t, std::uint32_t> codes;

@@ -229,7 +229,8 @@ private:
     const std::uint64_t kind = this->File.number(at, 1) & 15;
     const std::uint64_t bits = this->File.number(at + 1, 3);
     found.bytes = this->File.number(at + 4, 4);
-    if (kind > 3 || kind == 2 || (kind < 2 && (bits & 1) != 0))
+    const bool wide = found.bytes == 1 || found.bytes == 2 || found.bytes == 4 || found.bytes == 8;
+    if (kind > 3 || kind == 2 || (kind < 2 && ((bits & 1) != 0 || !wide)))
     {
       this->File.fail(at, "is a type that is not known here");
     }
