@@ -114,6 +114,7 @@ TEST(CameraRig, WhatWasDrawnIsThatOfTheLastAttempt)
     watch.values = &values;
     again += sampler.draw(number, watch).notes.at(0).attempts > 1;
     std::vector<std::string> paths;
+    paths.reserve(values.size());
     for (const SampleValue& value : values)
     {
       paths.push_back(value.path);
