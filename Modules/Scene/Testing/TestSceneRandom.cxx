@@ -7,7 +7,6 @@
 using namespace dgtk;
 using namespace dgtk::test;
 using testing::HasSubstr;
-using testing::Not;
 
 // A scene that is to be drawn first is told from one that is as it stands, and where.
 
