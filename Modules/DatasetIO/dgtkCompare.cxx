@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -279,7 +280,8 @@ std::optional<std::uint64_t> pixelsOf(const std::string& file)
   }
   catch (const InputError&)
   {
-    const std::string head = readFile(file).substr(0, 4);
+    std::string head(4, '\0');
+    std::ifstream(file, std::ios::binary).read(head.data(), std::streamsize(head.size()));
     if (head == "\x89PNG" || head == "\x93NUM")
     {
       return std::nullopt;

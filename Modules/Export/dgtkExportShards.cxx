@@ -155,7 +155,7 @@ ExportResult shardOfScenes(const ExportRequest& request, const std::vector<std::
   };
   if (!hasParts(request.folder) &&
       std::count_if(scenes.begin(), scenes.end(), [&](const std::string& name) { return isDone(name, false); }) ==
-        std::ptrdiff_t(scenes.size())) // looks at all
+        std::ptrdiff_t(scenes.size())) // each is asked, so that one that cannot be said is refused before any is begun
   {
     return {};
   }

@@ -8,10 +8,13 @@ import hashlib
 import json
 import math
 import os
+import shutil
+import subprocess
+import tempfile
 
 import numpy as np
 
-from harness import Case, load_json, main  # noqa: F401: for the tests
+from harness import DGTK, Case, load_json, main  # noqa: F401: for the tests
 from pictures import read_png  # noqa: F401
 
 LAYERS = "color,depth,objects,classes,boxes,amodal"
@@ -158,6 +161,17 @@ def _without_view(camera):
 
 class ExportCase(Case):
     """Cases that render a scene once for all tests of a class, export and have the referee read it back."""
+
+    @classmethod
+    def rendered_once(cls, make, *options):
+        """A dataset for all cases of a class, of the scene that `make(folder)` writes."""
+        folder = tempfile.mkdtemp(prefix="dgtk-exports-")
+        cls.addClassCleanup(shutil.rmtree, folder, ignore_errors=True)
+        dataset = os.path.join(folder, "dataset")
+        done = subprocess.run([DGTK, "render", make(folder), "-o", dataset, "--quiet", *options], capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(done.stderr)
+        return dataset
 
     def render(self, scene, layers=LAYERS, *options):
         folder = self.path("dataset-" + str(len(os.listdir(self.folder))))

@@ -8,7 +8,6 @@ import resource
 import shutil
 import struct
 import subprocess
-import tempfile
 import zipfile
 
 import numpy as np
@@ -91,11 +90,7 @@ def ply(*lines):
 class Hostile(datasets.ExportCase):
     @classmethod
     def setUpClass(cls):
-        cls.folders = tempfile.mkdtemp(prefix="dgtk-hostile-")
-        cls.addClassCleanup(shutil.rmtree, cls.folders, ignore_errors=True)
-        cls.dataset = os.path.join(cls.folders, "dataset")
-        scene = datasets.street(cls.folders, width=24, height=18)
-        subprocess.run([DGTK, "render", scene, "-o", cls.dataset, "--for", FORMATS, "--quiet"], check=True)
+        cls.dataset = cls.rendered_once(lambda folder: datasets.street(folder, width=24, height=18), "--for", FORMATS)
 
     def ends(self, form, name, edit, says, of_record=None):
         """The file with an edit, of which export.json knows."""

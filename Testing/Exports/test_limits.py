@@ -4,15 +4,12 @@ import json
 import os
 import pickle
 import shutil
-import subprocess
-import tempfile
 
 import h5py
 import numpy as np
 
 import datasets
 from datasets import load_json, main, read_png
-from harness import DGTK
 from test_kitti import labels
 
 FORMATS = "nerf-synthetic,middlebury,kitti-odometry,kitti-object,kitti-depth,kitti2015,colmap,transforms,voc,tum,tapvid,hdf5"
@@ -36,12 +33,7 @@ def scene_in(folder):
 class Limits(datasets.ExportCase):
     @classmethod
     def setUpClass(cls):
-        cls.folders = tempfile.mkdtemp(prefix="dgtk-limits-")
-        cls.addClassCleanup(shutil.rmtree, cls.folders, ignore_errors=True)
-        cls.dataset = os.path.join(cls.folders, "dataset")
-        done = subprocess.run([DGTK, "render", scene_in(cls.folders), "-o", cls.dataset, "--for", FORMATS, "--color-bits", "16", "--quiet"], capture_output=True, text=True)
-        if done.returncode:
-            raise RuntimeError(done.stderr)
+        cls.dataset = cls.rendered_once(scene_in, "--for", FORMATS, "--color-bits", "16")
 
     def changed(self, name, edit):
         """The dataset with another document: `edit` is given what it holds."""

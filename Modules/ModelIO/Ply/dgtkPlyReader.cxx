@@ -314,7 +314,7 @@ private:
     const int numbers = element.find({ "texnumber" });
     const PlyColor colors(element);
     const bool colored = colors.exists() && !this->HasColors;
-    const bool ofFaces = ends[0] < 0 || ends[1] < 0;
+    const bool ofFaces = element.name != "edge";
     this->HasNumbers = this->HasNumbers || (ofFaces && numbers >= 0);
     this->LostColors = this->LostColors || (ofFaces && colors.exists() && this->HasColors);
     std::vector<double> row(element.properties.size() + 1, 0);
@@ -344,7 +344,7 @@ private:
           }
         }
       }
-      if (element.name != "edge")
+      if (ofFaces)
       {
         this->Material = this->material(PlyElement::valueAt(row, numbers), colored || this->ColorsVary);
         this->FaceColor = colored ? std::optional(colors.bytesIn(row)) : std::nullopt;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real files against counts and bounds that independent parsers found; runs where the folder of models is.
+// Real files against counts and bounds that independent parsers found, where the folder of models is; and damaged ones.
 #include "dgtkError.h"
 #include "dgtkModelChecks.h"
 #include "dgtkModelReader.h"
+#include "dgtkModelSeeds.h"
 #include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -168,3 +169,25 @@ TEST(ModelTruth, CountsAndBounds)
   }
   EXPECT_GE(compared, 30);
 }
+
+namespace
+{
+/// Small real files; without them there is nothing that the made ones do not try.
+void fuzzReal(const std::string& extension)
+{
+  const std::vector<std::string> seeds = dgtk::test::extraSeeds(extension);
+  if (seeds.empty())
+  {
+    GTEST_SKIP() << dgtk::test::withoutExtraModels;
+  }
+  dgtk::test::fuzzReader(extension, seeds);
+}
+} // namespace
+
+TEST(ModelFuzz, Ac3d) { dgtk::test::fuzzReader("ac", { dgtk::test::ac3dSeed() }); }
+TEST(ModelFuzz, Md2) { dgtk::test::fuzzReader("md2", { dgtk::test::md2Seed().bytes() }); }
+TEST(ModelFuzz, Studio3ds) { dgtk::test::fuzzReader("3ds", { dgtk::test::seed3ds() }); }
+
+TEST(ModelFuzz, RealAc3d) { fuzzReal("ac"); }
+TEST(ModelFuzz, RealMd2) { fuzzReal("md2"); }
+TEST(ModelFuzz, Real3ds) { fuzzReal("3ds"); }

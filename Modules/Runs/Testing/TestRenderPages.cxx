@@ -5,13 +5,11 @@
 
 #include "dgtkEditorState.h"
 #include "dgtkFile.h"
-#include "dgtkTestSupport.h"
+#include "dgtkRunsTest.h"
 
-#include <QApplication>
 #include <QCheckBox>
 #include <QLabel>
 #include <QLineEdit>
-#include <QSettings>
 #include <QSpinBox>
 
 #include <gtest/gtest.h>
@@ -21,25 +19,9 @@ using namespace dgtk::test;
 
 namespace
 {
-/// An application whose data and settings are in a folder of its own, and a scene.
-class RenderPages : public testing::Test
+class RenderPages : public RunsTest
 {
 protected:
-  void SetUp() override
-  {
-    qputenv("QT_QPA_PLATFORM", "offscreen");
-    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(this->Folder.path("data")));
-    qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(this->Folder.path("config")));
-    if (QCoreApplication::instance() == nullptr)
-    {
-      static int count = 1;
-      static char name[] = "TestRuns";
-      static char* arguments[] = { name, nullptr };
-      static QApplication application(count, arguments);
-      QCoreApplication::setOrganizationName("dgtk-test");
-    }
-    QSettings().clear();
-  }
   void open(EditorState& state, const std::string& scene) const
   {
     writeFile(this->Folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n");

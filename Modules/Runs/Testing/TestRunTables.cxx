@@ -8,6 +8,7 @@
 
 #include "dgtkFile.h"
 #include "dgtkJournal.h"
+#include "dgtkRunsTest.h"
 #include "dgtkTestSupport.h"
 
 #include <QApplication>
@@ -38,28 +39,7 @@ using namespace dgtk;
 
 namespace
 {
-/// An application whose data and settings are in a folder of its own.
-class RunTables : public testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    static const test::TemporaryFolder folder;
-    qputenv("QT_QPA_PLATFORM", "offscreen");
-    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(folder.path("data")));
-    qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(folder.path("config")));
-    if (QCoreApplication::instance() == nullptr)
-    {
-      static int count = 1;
-      static char name[] = "TestRuns";
-      static char* arguments[] = { name, nullptr };
-      static QApplication application(count, arguments);
-      QCoreApplication::setOrganizationName("dgtk-test");
-    }
-    QSettings().clear();
-    std::filesystem::remove_all(folder.path("data"));
-  }
-};
+using RunTables = test::RunsTest;
 
 /// What a log says behind these lines of the program.
 struct Told

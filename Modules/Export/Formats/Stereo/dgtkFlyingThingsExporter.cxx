@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkClassedRows.h"
-#include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
