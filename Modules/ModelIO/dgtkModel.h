@@ -72,10 +72,10 @@ struct Material
   Eigen::Vector3d diffuse{ 0.8, 0.8, 0.8 };
   Eigen::Vector3d specular{ 0, 0, 0 };
   Eigen::Vector3d emission{ 0, 0, 0 }; ///< of what is physical [0, 1000]: it may be brighter than white
-  double shininess = 0;  ///< Phong exponent, [0, 128]
-  double opacity = 1;    ///< 1 opaque; below 1 translucent for colour only
-  bool twoSided = false; ///< as the file says; every surface is hit and drawn from both sides regardless
-  int texture = -1;      ///< index into Model::textures, or -1
+  double shininess = 0;                ///< Phong exponent, [0, 128]
+  double opacity = 1;                  ///< 1 opaque; below 1 translucent for colour only
+  bool twoSided = false;               ///< as the file says; every surface is hit and drawn from both sides regardless
+  int texture = -1;                    ///< index into Model::textures, or -1
   /// Texels of `texture` with alpha below 0.5 are not there.
   bool cutOut = false;
 
@@ -127,7 +127,7 @@ class DGTKMODELIO_EXPORT Deformation
 {
 public:
   virtual ~Deformation() = default;
-  /// Writes the position of every vertex of the file (Model::sourceVertices of them), in the model's axes, at a model
+  /// Writes the position of every source vertex (Model::sourceVertices of them), in the model's axes, at a model
   /// frame; fractions interpolate between neighbouring frames of the same animation, values outside are clamped to
   /// [first, last]. `animation` indexes Model::animations. Thread-safe.
   virtual void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const = 0;
@@ -164,8 +164,11 @@ struct Model
   /// place is the colour.
   std::shared_ptr<const Image> colorMap;
   std::vector<Eigen::Vector2d> colorMapAt;
-  std::vector<std::uint32_t> sourceVertex; ///< split vertex -> vertex of the file
-  std::size_t sourceVertices = 0;          ///< vertices of the file: what `dgtk info` counts
+  /// Split vertex -> source vertex: a vertex of the file, or all those of it that are one, as they lie at one place.
+  std::vector<std::uint32_t> sourceVertex;
+  std::size_t sourceVertices = 0;
+  std::vector<std::uint32_t> sourceOf; ///< vertex of the file -> source vertex; empty where they are the same
+  bool isNumbered = true;              ///< the file has one numbering of its vertices, and these are its numbers
   /// Split vertex -> smoothing group; on deformation a group's normal is the normalised sum of its triangles'
   /// area-weighted normals. Empty for models without deformation.
   std::vector<std::uint32_t> normalGroup;
@@ -185,6 +188,10 @@ struct Model
   Eigen::Vector3d boundsMin{ 1, 1, 1 };
   Eigen::Vector3d boundsMax{ -1, -1, -1 };
 
+  /// Vertices of the file: what `dgtk info` counts.
+  std::size_t fileVertices() const { return this->sourceOf.empty() ? this->sourceVertices : this->sourceOf.size(); }
+  /// The first split vertex that stands for a vertex of the file; none for one of no triangle.
+  DGTKMODELIO_EXPORT std::optional<std::size_t> splitVertexOf(std::uint32_t fileVertex) const;
   /// Part of a triangle of the model, by binary search. triangle < triangles.size().
   DGTKMODELIO_EXPORT std::uint32_t partOf(std::uint32_t triangle) const;
   /// Whether the picture of one of `textures` is in no file of its own.

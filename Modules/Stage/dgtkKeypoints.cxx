@@ -3,33 +3,27 @@
 
 #include "dgtkStageModels.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace dgtk
 {
 
-namespace
-{
-/// The first of the split vertices that stand for a vertex of the file.
-std::optional<std::size_t> splitVertexOf(const Model& model, std::uint32_t vertex)
-{
-  const auto found = std::find(model.sourceVertex.begin(), model.sourceVertex.end(), vertex);
-  return found == model.sourceVertex.end() ? std::nullopt
-                                           : std::optional<std::size_t>(found - model.sourceVertex.begin());
-}
-} // namespace
-
 void checkKeypoints(const SceneDescription& scene, const ObjectDescription& object, const Model& model)
 {
   for (const KeypointDescription& point : object.keypoints)
   {
-    if (point.vertex && *point.vertex >= model.sourceVertices)
+    if (point.vertex && !model.isNumbered)
+    {
+      failObject(scene, object,
+        "keypoints." + point.name + " is the number of a vertex: those of " + object.model + " are not numbered",
+        "a point [x, y, z]", std::to_string(*point.vertex));
+    }
+    if (point.vertex && *point.vertex >= model.fileVertices())
     {
       failObject(scene, object, "keypoints." + point.name + " is no vertex of " + object.model,
-        "a whole number below " + std::to_string(model.sourceVertices), std::to_string(*point.vertex));
+        "a whole number below " + std::to_string(model.fileVertices()), std::to_string(*point.vertex));
     }
-    if (point.vertex && !splitVertexOf(model, *point.vertex))
+    if (point.vertex && !model.splitVertexOf(*point.vertex))
     {
       failObject(scene, object, "keypoints." + point.name + " is a vertex of no triangle of " + object.model,
         "a vertex of a surface", std::to_string(*point.vertex));
@@ -42,7 +36,7 @@ std::vector<KeypointState> keypointsAt(const ObjectDescription& object, const Mo
   std::vector<KeypointState> points;
   for (const KeypointDescription& point : object.keypoints)
   {
-    const std::optional<std::size_t> vertex = point.vertex ? splitVertexOf(model, *point.vertex) : std::nullopt;
+    const std::optional<std::size_t> vertex = point.vertex ? model.splitVertexOf(*point.vertex) : std::nullopt;
     if (vertex || !point.vertex)
     {
       points.push_back({ point.name, vertex ? geometry.positions[*vertex] : point.position });

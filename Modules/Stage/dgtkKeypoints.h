@@ -10,8 +10,8 @@
 namespace dgtk
 {
 
-/// Throws InputError, with the scene's file and the object's line, for a keypoint at a vertex that the model lacks, or
-/// that is of no triangle.
+/// Throws InputError, with the scene's file and the object's line, for a keypoint at a vertex that the model lacks or
+/// does not number, or that is of no triangle.
 void checkKeypoints(const SceneDescription& scene, const ObjectDescription& object, const Model& model);
 
 /// The keypoints of an object whose model's vertices are these; those of missing vertices are left out.

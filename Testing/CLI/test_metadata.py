@@ -225,6 +225,22 @@ class Metadata(Case):
         self.assertNotEqual(*flags)  # it goes with the vertex
         self.dgtk("verify", folder)
 
+    def test_keypoints_by_the_numbers_of_files(self):
+        points = ["7 7 7", "0 0 0", "1 0 0", "0 1 0", "0 0 0"]  # the first is of no triangle, two are at one place
+        files = [self.write("a.obj", "".join(f"v {p}\n" for p in points) + "f 4 5 3\n"),
+                 self.write("a.off", "OFF\n5 1 0\n" + "\n".join(points) + "\n3 3 4 2\n")]
+        scene = {"objects": [{"model": file, "keypoints": {"x": 2, "y": 3, "first": 1, "last": 4}} for file in files], "cameras": [CAMERA]}
+        folder = self.render(scene, "--layers", "boxes")
+        for one in load_json(os.path.join(folder, "left", "boxes", "000000.json"))["objects"]:
+            np.testing.assert_allclose([p["x"] for p in one["keypoints"]],
+                                       [[1, 0.5, 8], [0, -0.5, 8], [0, 0.5, 8], [0, 0.5, 8]], atol=1e-12)
+        self.dgtk("verify", folder)
+        for file in files:
+            self.assertEqual(json.loads(self.dgtk("info", file, "--json").stdout)["vertices"], 5)
+            refused = {"objects": [{"model": file, "keypoints": {"unused": 0}}], "cameras": [CAMERA]}
+            self.refused("render", self.write("refused.json", json.dumps(refused)), "-o", self.path("no"), status=3,
+                         says=["vertex of no triangle"])
+
 
 if __name__ == "__main__":
     main()

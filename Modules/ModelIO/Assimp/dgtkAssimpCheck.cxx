@@ -34,6 +34,7 @@ void check(const import::Mesh& mesh, std::size_t nodes)
   const std::size_t vertices = mesh.positions.size();
   require(vertices < 0xffffffffu, "too many vertices");
   require(mesh.normals.empty() || mesh.normals.size() == vertices, "normals and vertices do not match");
+  require(mesh.restNormals.empty() || mesh.restNormals.size() == vertices, "normals and vertices do not match");
   require(mesh.uvs.empty() || mesh.uvs.size() == vertices, "texture coordinates and vertices do not match");
   require(mesh.colors.empty() || mesh.colors.size() == vertices, "colours and vertices do not match");
   std::uint64_t corners = 0;

@@ -4,11 +4,13 @@
 #include "dgtkGltfFile.h"
 #include "dgtkGltfMeshes.h"
 #include "dgtkGltfPlacement.h"
+#include "dgtkGltfUses.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 
 namespace dgtk::import
 {
@@ -16,6 +18,8 @@ namespace dgtk::import
 namespace
 {
 using Json = GltfFile::Json;
+
+constexpr std::string_view skinKey = "\"skin\"";
 
 /// Times and rows of one sampler; a spline's rows come three a key.
 struct Sampler
@@ -188,32 +192,8 @@ Animation readAnimation(GltfFile& file, const Json& from, const NodeMatch& nodes
   return to;
 }
 
-void repairJoints(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
-{
-  const Json none = Json::array();
-  const Json& list = file.root().contains("nodes") ? file.root().at("nodes") : none;
-  for (std::size_t n = 0; n < list.size(); ++n)
-  {
-    const std::int32_t index = nodes.of(n);
-    if (index == noIndex || !list[n].contains("skin"))
-    {
-      continue;
-    }
-    const Json& joints = file.item("skins", list[n].at("skin")).at("joints");
-    for (const std::uint32_t m : scene.nodes[static_cast<std::size_t>(index)].meshes)
-    {
-      std::vector<Bone>& bones = scene.meshes.at(m).bones;
-      for (std::size_t i = 0; bones.size() == joints.size() && i < bones.size(); ++i)
-      {
-        bones[i].node = nodes.of(joints[i]);
-      }
-    }
-  }
-}
-
 void repairMotion(GltfFile& file, const NodeMatch& nodes, Scene& scene)
 {
-  repairJoints(file, nodes, scene);
   if (!file.root().contains("animations"))
   {
     return;
@@ -235,6 +215,14 @@ std::set<std::string> extensionsOf(const GltfFile& file, const char* list)
     names.insert(name.is_string() ? name.get<std::string>() : std::string());
   }
   return names;
+}
+
+/// Whether a node has something of that name.
+bool nodesSay(const GltfFile& file, const char* name)
+{
+  const Json nodes = file.root().value("nodes", Json::array());
+  return nodes.is_array() && // not glTF 1
+         std::any_of(nodes.begin(), nodes.end(), [name](const Json& node) { return node.contains(name); });
 }
 
 /// Whether a text is somewhere in a list of the file.
@@ -293,6 +281,33 @@ std::string problemOf(const Step& step)
 }
 } // namespace
 
+bool hasSkins(const std::string& path, const ReadContents& contentsOf)
+{
+  bool has = false;
+  problemOf(
+    [&]
+    {
+      const std::string bytes = contentsOf(path);
+      has = bytes.find(skinKey) != std::string::npos && // most files have none, and are not parsed for it
+            nodesSay(GltfFile(path, [&bytes](const std::string&) { return bytes; }), "skin");
+    });
+  return has;
+}
+
+std::string withoutSkins(std::string bytes)
+{
+  for (std::size_t at = 0; (at = bytes.find(skinKey, at)) != std::string::npos;)
+  {
+    at += skinKey.size();
+    const std::size_t next = bytes.find_first_not_of(" \t\r\n", at);
+    if (next != std::string::npos && bytes[next] == ':')
+    {
+      bytes[at - 2] = 'N';
+    }
+  }
+  return bytes;
+}
+
 std::string gltfProblem(const std::string& path, const ReadContents& contentsOf)
 {
   std::set<std::string> extensions;
@@ -314,6 +329,7 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
     });
   const std::string ofMotion = nodes ? problemOf([&] { repairMotion(*file, *nodes, scene); }) : problem;
   const std::string ofMeshes = nodes ? problemOf([&] { repairMeshes(*file, *nodes, scene); }) : problem;
+  const std::string ofUses = nodes ? problemOf([&] { repairUses(*file, *nodes, scene); }) : problem;
   if (!ofMotion.empty() && !scene.animations.empty())
   {
     scene.warnings.push_back("animations are taken from the importer, without steps and splines: " + ofMotion);
@@ -322,6 +338,10 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   if (!ofMeshes.empty() && used.count("KHR_mesh_quantization") > 0)
   {
     scene.error = "its quantized vertices cannot be read: " + ofMeshes;
+  }
+  else if (!ofUses.empty() && file && (nodesSay(*file, "skin") || nodesSay(*file, "weights")))
+  {
+    scene.error = "its skins or weights of morph targets: " + ofUses;
   }
   else if (!ofMeshes.empty() && file &&
            (stands(*file, "meshes", "\"COLOR_0\"") || stands(*file, "materials", textureTransform)))

@@ -13,10 +13,16 @@ namespace dgtk::import
 /// All of a file of that name. Throws std::runtime_error.
 using ReadContents = std::function<std::string(const std::string& name)>;
 
-/// Reads animations and the joints of skins from a glTF file again, where Assimp 5.2 loses something: steps and splines
-/// between keys become lines, weights below 0 become 0, nodes of equal names are confused, and joints without a name
-/// are not found; and what repairMeshes() says. What cannot be read is left as Assimp has it, with a
-/// warning, but what would be other triangles: that is Scene::error.
+/// Whether nodes of a glTF file have skins that repairGltf() reads.
+bool hasSkins(const std::string& path, const ReadContents& contentsOf);
+/// The bytes of such a file, where no node has a skin: Assimp 5.2 crashes on one without matrices, mixes up joints of
+/// several types, and gives all nodes of a mesh the skin of the last one.
+std::string withoutSkins(std::string bytes);
+
+/// Reads animations from a glTF file again, where Assimp 5.2 loses something: steps and splines between keys become
+/// lines, weights below 0 become 0, and nodes of equal names are confused; and what repairMeshes() and repairUses()
+/// say. What cannot be read is left as Assimp has it, with a warning, but what would be other triangles: that is
+/// Scene::error.
 void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& scene);
 
 /// Why Assimp may refuse a glTF file, in words, or "": what it says itself is seldom the reason.

@@ -80,6 +80,7 @@ public:
       throw InputError(this->Path, std::string("is damaged: ") + error.what());
     }
     this->Builder.model().companions = this->Scene->files;
+    this->Builder.model().isNumbered = this->Format == "gltf" || this->Format == "off";
     this->Builder.keep(this->Scene->dependencies, 0);
     for (const std::string& warning : this->Scene->warnings)
     {
@@ -110,7 +111,9 @@ public:
       this->addAnimations();
       this->Builder.setDeformation(deformation);
     }
-    return this->Builder.finish();
+    ModelContents contents = this->Builder.finish();
+    setSourceOf(*contents.model, std::move(this->SourceOf));
+    return contents;
   }
 
 private:
@@ -175,6 +178,10 @@ private:
         model[i] = model[first[i]];
       }
     }
+    if (!this->First.empty() && this->Builder.model().isNumbered)
+    {
+      this->SourceOf.insert(this->SourceOf.end(), model.begin(), model.end());
+    }
     return model;
   }
 
@@ -204,11 +211,12 @@ private:
     const std::vector<Eigen::Matrix3d> linear = deformation.linearOf(posed.mesh, posed.node, pose);
     const bool mirrored = mesh.bones.empty() && pose[posed.node].linear().determinant() < 0;
     std::vector<std::int32_t> normals;
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+    const std::vector<import::Float3>& own =
+      animation >= 0 || mesh.restNormals.empty() ? mesh.normals : mesh.restNormals;
+    for (std::size_t i = 0; i < own.size(); ++i)
     {
       const Eigen::Matrix3d& m = linear[linear.size() == 1 ? 0 : i];
-      const Eigen::Vector3d n =
-        (mirrored ? -1 : 1) * Eigen::Vector3d(mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]);
+      const Eigen::Vector3d n = (mirrored ? -1 : 1) * Eigen::Vector3d(own[i][0], own[i][1], own[i][2]);
       normals.push_back(this->Builder.addNormal(turnedNormal(m, n)));
     }
     this->addSurfaces(mesh, model, normals, mirrored);
@@ -301,6 +309,7 @@ private:
   AssimpMaterials Materials;
   std::vector<PosedMesh> Posed;
   std::vector<std::vector<std::uint32_t>> First; ///< by mesh; empty when nothing is welded
+  std::vector<std::uint32_t> SourceOf;           ///< of the model, where something is welded
   std::size_t Points = 0;
 };
 } // namespace

@@ -99,6 +99,7 @@ struct Mesh
   std::int32_t material = 0;
   std::vector<Float3> positions;
   std::vector<Float3> normals;                     ///< one per position, or none
+  std::vector<Float3> restNormals;                 ///< those at the weights of targets; none: as `normals`
   std::vector<std::array<float, 2>> uvs;           ///< one per position, or none; origin lower left
   std::vector<std::array<std::uint8_t, 4>> colors; ///< one per position, or none: R, G, B (sRGB), A
   std::vector<std::uint32_t> faceSizes;            ///< corners of each face: 1 point, 2 line, 3 or more polygon
@@ -213,7 +214,8 @@ void io(A& a, Target& t)
 template <class A>
 void io(A& a, Mesh& m)
 {
-  a(m.name), a(m.material), a(m.positions), a(m.normals), a(m.uvs), a(m.colors), a(m.faceSizes), a(m.faceVertices);
+  a(m.name), a(m.material), a(m.positions), a(m.normals), a(m.restNormals), a(m.uvs), a(m.colors), a(m.faceSizes),
+    a(m.faceVertices);
   a(m.bones), a(m.targets), a(m.blends), a(m.dualQuaternions);
 }
 template <class A>

@@ -9,6 +9,7 @@
 #include "dgtkHelperChannel.h"
 #include "dgtkHelperWall.h"
 #include "dgtkImportProtocol.h"
+#include "dgtkOffText.h"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/IOStream.hpp>
@@ -27,6 +28,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include <poll.h>
 #include <sys/prctl.h>
@@ -155,7 +157,12 @@ public:
         limitTo(RLIMIT_AS, workerBase + workerPerByte * this->Bytes);
       }
     }
-    return this->IsCollada ? colladaStream(*file) : file.release();
+    if (this->IsCollada)
+    {
+      this->Collada = dgtk::import::colladaText(bytesOf(*file));
+      return this->Collada.problem.empty() ? streamOf(std::exchange(this->Collada.text, {})) : nullptr;
+    }
+    return name == this->Skinned ? streamOf(dgtk::import::withoutSkins(bytesOf(*file))) : file.release();
   }
 
   /// All of a file. Throws std::runtime_error.
@@ -171,8 +178,10 @@ public:
 
   std::uint64_t Bytes = 0;
   std::set<std::string> Missing;
-  std::string LongNumber; ///< path of the file that has one, or ""
-  std::uint64_t Line = 0; ///< where it is
+  std::string Skinned;               ///< path of a glTF file that is handed out without the skins of its nodes, or ""
+  std::string LongNumber;            ///< path of the file that has one, or ""
+  std::uint64_t Line = 0;            ///< where it is
+  dgtk::import::ColladaText Collada; ///< what was opened last, without the text
 
 private:
   struct Found
@@ -181,9 +190,8 @@ private:
     std::string path;
   };
 
-  static Assimp::IOStream* colladaStream(Assimp::IOStream& file)
+  static Assimp::IOStream* streamOf(const std::string& text)
   {
-    const std::string text = dgtk::import::colladaText(bytesOf(file));
     auto bytes = std::make_unique<std::uint8_t[]>(text.size());
     std::copy(text.begin(), text.end(), bytes.get());
     auto stream = std::make_unique<Assimp::MemoryIOStream>(bytes.get(), text.size(), true);
@@ -277,16 +285,19 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   importer.SetIOHandler(files);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
+  const auto contents = [files](const std::string& name) { return files->contentsOf(name); };
+  files->Skinned = format == "gltf" && dgtk::import::hasSkins(path, contents) ? path : std::string();
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* found = importer.ReadFile(path, format == "gltf" ? 0u : unsigned(aiProcess_TransformUVCoords));
+  files->Skinned.clear();
   scene.bytesRead = files->Bytes;
   if (refuseLongNumber(*files, scene))
   {
     return;
   }
-  const auto contents = [files](const std::string& name) { return files->contentsOf(name); };
   if (!found)
   {
-    const std::string problem = format == "gltf" ? dgtk::import::gltfProblem(path, contents) : std::string();
+    const std::string problem = format == "gltf" ? dgtk::import::gltfProblem(path, contents) : files->Collada.problem;
     scene.error = problem.empty() ? inWords(importer.GetErrorString()) : problem;
     return;
   }
@@ -294,7 +305,13 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   {
     scene.warnings.push_back("file " + name.substr(0, 200) + " not found");
   }
+  scene.warnings.insert(scene.warnings.end(), files->Collada.warnings.begin(), files->Collada.warnings.end());
   dgtk::import::convert(*found, format == "gltf", scene);
+  dgtk::import::restoreNames(scene);
+  if (format == "off" && dgtk::import::facesHaveColors(contents(path)))
+  {
+    scene.warnings.emplace_back("colours of faces are not drawn");
+  }
   if (format == "gltf")
   {
     dgtk::import::repairGltf(path, contents, scene);

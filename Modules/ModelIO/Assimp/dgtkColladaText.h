@@ -2,14 +2,28 @@
 #ifndef dgtkColladaText_h
 #define dgtkColladaText_h
 
+#include "dgtkAssimpStream.h"
+
 #include <string>
+#include <vector>
 
 namespace dgtk::import
 {
 
-/// The XML as the importer takes it for what it means: without white space around the texts between its tags, and
-/// without the unit of length (the guide's page on models says why).
-std::string colladaText(const std::string& xml);
+struct ColladaText
+{
+  std::string text;
+  std::string problem; ///< why the file is refused, or ""
+  std::vector<std::string> warnings;
+};
+
+/// The XML as the importer takes it for what it means: without white space around the texts between its tags and
+/// without the unit of length, with a name of its own for each node, axes of length 1, and the texture coordinates that
+/// materials bind as the first ones (the guide's page on models says why).
+ColladaText colladaText(const std::string& xml);
+
+/// Gives the nodes the names of the file back.
+void restoreNames(Scene& scene);
 
 } // namespace dgtk::import
 

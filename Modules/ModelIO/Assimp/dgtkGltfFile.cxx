@@ -80,7 +80,7 @@ GltfFile::GltfFile(const std::string& path, const ReadContents& contentsOf)
     return;
   }
   const std::size_t length = littleWord(bytes, 12);
-  this->Root = Json::parse(bytes.substr(20, length));
+  this->Root = Json::parse(bytes.substr(20, length).c_str()); // some pad it with bytes that are 0
   const std::size_t binary = 20 + (length + 3) / 4 * 4;
   if (binary + 8 <= bytes.size())
   {
@@ -148,6 +148,16 @@ std::vector<double> GltfFile::numbers(std::size_t index, std::size_t components,
     }
   }
   return numbers;
+}
+
+std::vector<double> GltfFile::ofVertices(std::size_t index, std::size_t components, Integers integers, const Mesh& mesh)
+{
+  std::vector<double> all = this->numbers(index, components, integers);
+  if (all.size() != components * mesh.positions.size())
+  {
+    GltfFile::fail("attributes and vertices do not match");
+  }
+  return all;
 }
 
 const std::string& GltfFile::buffer(std::size_t index)

@@ -18,6 +18,7 @@ class GltfFile
 {
 public:
   using Json = nlohmann::json;
+  static constexpr int floatType = 5126; ///< of an accessor's components
 
   [[noreturn]] static void fail(const char* what);
 
@@ -34,6 +35,8 @@ public:
   };
   /// All components of an accessor.
   std::vector<double> numbers(std::size_t index, std::size_t components, Integers integers = Integers::Shares);
+  /// Those of an attribute of a mesh.
+  std::vector<double> ofVertices(std::size_t index, std::size_t components, Integers integers, const Mesh& mesh);
 
 private:
   const std::string& buffer(std::size_t index);

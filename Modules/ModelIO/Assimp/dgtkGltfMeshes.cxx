@@ -15,7 +15,6 @@ namespace
 {
 using Json = GltfFile::Json;
 using Integers = GltfFile::Integers;
-constexpr int floatType = 5126;
 
 std::uint8_t byteOf(double share)
 {
@@ -45,13 +44,13 @@ public:
       if (!this->IsDone.at(meshes[i]))
       {
         this->IsDone[meshes[i]] = true;
-        this->run(node, primitives.at(i), this->Whole.meshes[meshes[i]]);
+        this->run(primitives.at(i), this->Whole.meshes[meshes[i]]);
       }
     }
   }
 
 private:
-  void run(const Json& node, const Json& primitive, Mesh& mesh)
+  void run(const Json& primitive, Mesh& mesh)
   {
     const Json& attributes = primitive.at("attributes");
     const Json none = Json::object();
@@ -68,10 +67,6 @@ private:
       this->colors(attributes.at("COLOR_0"), material.value("alphaMode", "OPAQUE") == "BLEND", mesh);
       this->light(material, this->Whole.materials.at(std::size_t(mesh.material)));
     }
-    if (node.contains("skin") && this->isStored(attributes, "WEIGHTS_0"))
-    {
-      this->weights(attributes, this->File.item("skins", node.at("skin")).at("joints").size(), mesh);
-    }
     const std::vector<Placement> all = placementsOf(material);
     this->coordinates(attributes, all.empty() ? Placement() : all.front(), mesh);
     if (std::any_of(all.begin(), all.end(), [&all](const Placement& p) { return !(p == all.front()); }) &&
@@ -86,22 +81,12 @@ private:
   bool isStored(const Json& attributes, const std::string& name) const
   {
     return attributes.contains(name) &&
-           this->File.item("accessors", attributes.at(name)).at("componentType") != floatType;
-  }
-
-  std::vector<double> numbers(std::size_t accessor, std::size_t components, Integers integers, const Mesh& mesh)
-  {
-    std::vector<double> all = this->File.numbers(accessor, components, integers);
-    if (all.size() != components * mesh.positions.size())
-    {
-      GltfFile::fail("attributes and vertices do not match");
-    }
-    return all;
+           this->File.item("accessors", attributes.at(name)).at("componentType") != GltfFile::floatType;
   }
 
   std::vector<Float3> vectors(std::size_t accessor, const Mesh& mesh)
   {
-    const std::vector<double> all = this->numbers(accessor, 3, Integers::AsSaid, mesh);
+    const std::vector<double> all = this->File.ofVertices(accessor, 3, Integers::AsSaid, mesh);
     std::vector<Float3> to;
     for (std::size_t i = 0; i + 2 < all.size(); i += 3)
     {
@@ -140,7 +125,7 @@ private:
   void colors(std::size_t accessor, bool translucent, Mesh& mesh)
   {
     const std::size_t channels = this->File.item("accessors", accessor).at("type") == "VEC4" ? 4 : 3;
-    const std::vector<double> all = this->numbers(accessor, channels, Integers::Shares, mesh);
+    const std::vector<double> all = this->File.ofVertices(accessor, channels, Integers::Shares, mesh);
     mesh.colors.resize(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.colors.size(); ++i)
     {
@@ -181,40 +166,12 @@ private:
     }
   }
 
-  void weights(const Json& attributes, std::size_t joints, Mesh& mesh)
-  {
-    if (mesh.bones.size() != joints)
-    {
-      GltfFile::fail("joints are not as expected");
-    }
-    for (Bone& bone : mesh.bones)
-    {
-      bone.vertices.clear();
-      bone.weights.clear();
-    }
-    for (int set = 0; attributes.contains("WEIGHTS_" + std::to_string(set)); ++set)
-    {
-      const std::string of = std::to_string(set);
-      const std::vector<double> weights = this->numbers(attributes.at("WEIGHTS_" + of), 4, Integers::Shares, mesh);
-      const std::vector<double> names = this->numbers(attributes.at("JOINTS_" + of), 4, Integers::AsSaid, mesh);
-      for (std::size_t i = 0; i < weights.size(); ++i)
-      {
-        if (weights[i] > 0)
-        {
-          Bone& bone = mesh.bones.at(std::size_t(std::max(names[i], 0.0)));
-          bone.vertices.push_back(std::uint32_t(i / 4));
-          bone.weights.push_back(float(weights[i]));
-        }
-      }
-    }
-  }
-
   void coordinates(const Json& attributes, const Placement& where, Mesh& mesh)
   {
     const std::string name = "TEXCOORD_" + std::to_string(where.set);
     if (attributes.contains(name) && (where.set != where.importedSet || this->isStored(attributes, name)))
     {
-      const std::vector<double> all = this->numbers(attributes.at(name), 2, Integers::AsSaid, mesh);
+      const std::vector<double> all = this->File.ofVertices(attributes.at(name), 2, Integers::AsSaid, mesh);
       mesh.uvs.resize(mesh.positions.size());
       for (std::size_t i = 0; i < mesh.uvs.size(); ++i)
       {

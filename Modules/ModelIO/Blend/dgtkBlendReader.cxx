@@ -134,6 +134,7 @@ ModelContents readBlend(const std::string& path, const ReadOptions& options)
   }
   colors.clear();
   contents.model->format = "blend";
+  contents.model->isNumbered = false; // the numbers are those of what Blender exports
   contents.model->path = path;
   nameFiles(path, own.path("files"), contents);
   return contents;

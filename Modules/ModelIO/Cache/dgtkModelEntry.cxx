@@ -237,7 +237,8 @@ void io(A& a, Model& m)
   auto rest = A::isReader ? std::make_shared<Geometry>() : std::const_pointer_cast<Geometry>(m.rest);
   a(*rest);
   m.rest = rest;
-  a(m.uvs), a(m.colors), a(m.sourceVertex), a(m.sourceVertices), a(m.normalGroup), a(m.animations), a(m.frames);
+  a(m.uvs), a(m.colors), a(m.sourceVertex), a(m.sourceVertices), a(m.sourceOf), a(m.isNumbered);
+  a(m.normalGroup), a(m.animations), a(m.frames);
   motion(a, m);
   a(m.lines), a(m.declaredTriangles), a(m.twoSidedTriangles), a(m.twoSidedSurfaces), a(m.declaredMaterials);
   a(m.boundsMin), a(m.boundsMax);
@@ -278,8 +279,8 @@ bool hasGeometry(const Model& m)
                      (m.normalGroup.empty() || m.normalGroup.size() == vertices);
   const auto inside = [vertices](const std::array<std::uint32_t, 3>& t)
   { return t[0] < vertices && t[1] < vertices && t[2] < vertices; };
-  return sizes && allBelow(m.sourceVertex, m.sourceVertices) && allBelow(m.normalGroup, vertices) &&
-         std::all_of(m.triangles.begin(), m.triangles.end(), inside);
+  return sizes && allBelow(m.sourceVertex, m.sourceVertices) && allBelow(m.sourceOf, m.sourceVertices) &&
+         allBelow(m.normalGroup, vertices) && std::all_of(m.triangles.begin(), m.triangles.end(), inside);
 }
 
 bool hasMaterials(const ModelContents& contents)

@@ -8,6 +8,18 @@
 namespace dgtk
 {
 
+std::optional<std::size_t> Model::splitVertexOf(std::uint32_t fileVertex) const
+{
+  if (fileVertex >= this->fileVertices())
+  {
+    return std::nullopt;
+  }
+  const std::uint32_t source = this->sourceOf.empty() ? fileVertex : this->sourceOf[fileVertex];
+  const auto found = std::find(this->sourceVertex.begin(), this->sourceVertex.end(), source);
+  return found == this->sourceVertex.end() ? std::nullopt
+                                           : std::optional<std::size_t>(found - this->sourceVertex.begin());
+}
+
 std::uint32_t Model::partOf(std::uint32_t triangle) const
 {
   const auto after = std::upper_bound(this->parts.begin(), this->parts.end(), triangle,

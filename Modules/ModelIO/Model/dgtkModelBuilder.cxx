@@ -379,4 +379,13 @@ ModelContents ModelBuilder::finish()
   return std::move(this->Contents);
 }
 
+void setSourceOf(Model& model, std::vector<std::uint32_t> sourceOf)
+{
+  const auto isOwn = [vertex = 0u](std::uint32_t source) mutable { return source == vertex++; };
+  if (!std::all_of(sourceOf.begin(), sourceOf.end(), isOwn))
+  {
+    model.sourceOf = std::move(sourceOf);
+  }
+}
+
 } // namespace dgtk

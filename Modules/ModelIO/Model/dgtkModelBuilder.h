@@ -157,6 +157,9 @@ private:
   std::map<std::pair<int, int>, int> Textured; ///< (material, texture) -> material
 };
 
+/// Sets Model::sourceOf, where some vertex is not its own.
+void setSourceOf(Model& model, std::vector<std::uint32_t> sourceOf);
+
 /// A normal, not of unit length, where points go by `linear`: by its cofactors, which are the inverse transpose times
 /// the determinant, also where a scale is 0.
 Eigen::Vector3d turnedNormal(const Eigen::Matrix3d& linear, const Eigen::Vector3d& normal);

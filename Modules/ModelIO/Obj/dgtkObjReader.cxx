@@ -97,6 +97,7 @@ public:
     , Builder(path, "obj", text.size(), options)
     , Materials(path, this->Builder)
   {
+    this->PlaceOf.reserve(this->SamePlace.size());
     if (this->Values.colored)
     {
       this->Builder.setHasColors();
@@ -117,7 +118,14 @@ public:
     this->endObject();
     this->Materials.finish();
     this->warn();
-    return this->Builder.finish();
+    ModelContents contents = this->Builder.finish();
+    for (std::uint32_t& vertex : contents.model->sourceVertex)
+    {
+      vertex = this->PlaceOf[vertex];
+    }
+    contents.model->sourceVertices = this->SamePlace.size();
+    setSourceOf(*contents.model, std::move(this->SamePlace));
+    return contents;
   }
 
 private:
@@ -180,7 +188,7 @@ private:
       this->Builder.beginObject(this->Name);
       this->InObject = true;
       this->ObjectBytes = 0;
-      this->FirstVertex = this->Vertices;
+      this->FirstVertex = this->PlaceOf.size();
       ++this->Objects;
     }
   }
@@ -206,7 +214,7 @@ private:
     if (vertex == noIndex || vertex < this->FirstVertex)
     {
       vertex = this->Builder.addVertex(this->Values.positions[first]);
-      ++this->Vertices;
+      this->PlaceOf.push_back(first);
     }
     return vertex;
   }
@@ -336,6 +344,7 @@ private:
   ObjValues Values;
   std::vector<std::uint32_t> SamePlace; ///< vertex of the file -> the first one at its place
   std::vector<std::uint32_t> VertexOf;  ///< vertex of the file -> of the builder, in the object that used it last
+  std::vector<std::uint32_t> PlaceOf;   ///< vertex of the builder -> of the file
   std::vector<NormalUse> NormalOf;
   std::uint64_t MostBytes;
   std::uint64_t ObjectBytes = 0;
@@ -350,8 +359,7 @@ private:
   bool InObject = false;
   bool HasUvs = false;
   std::uint32_t Objects = 0;
-  std::uint32_t Vertices = 0; ///< of the builder
-  std::uint32_t FirstVertex = 0;
+  std::size_t FirstVertex = 0; ///< of the builder, in the current object
   std::uint64_t Points = 0;
   std::uint64_t FreeForms = 0;
   std::uint64_t Lost = 0;

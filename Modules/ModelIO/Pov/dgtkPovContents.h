@@ -61,6 +61,7 @@ struct PovMesh
   std::vector<Eigen::Vector2f> uvs;
   std::vector<Face> faces;
   std::vector<PovTexturePointer> textures;
+  bool isNumbered = true; ///< the vertices are a list in the file
 };
 
 /// A mesh where it stands.

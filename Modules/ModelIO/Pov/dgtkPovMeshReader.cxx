@@ -21,6 +21,7 @@ std::int32_t added(std::vector<Item>& to, const Item& item)
 
 std::uint32_t PovShapeMaker::vertex(const Eigen::Vector3d& position)
 {
+  this->Mesh->isNumbered = false;
   const auto next = static_cast<std::uint32_t>(this->Mesh->vertices.size());
   const std::array<double, 3> key = { position.x() + 0.0, position.y() + 0.0, position.z() + 0.0 };
   const auto [known, isNew] =

@@ -151,6 +151,7 @@ private:
     const Eigen::Matrix3d& m = model_from_mesh.linear();
     const double orientation = m.determinant() < 0 ? -1 : 1;
     this->Builder.beginObject(instance.name.empty() ? "mesh" + std::to_string(index) : instance.name);
+    this->Builder.model().isNumbered = this->Builder.model().isNumbered && mesh.isNumbered;
     std::uint32_t first = 0;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     {

@@ -215,6 +215,7 @@ ModelContents readStl(const std::string& path, const ReadOptions& options)
 {
   const std::string bytes = readFile(path);
   ModelBuilder builder(path, "stl", bytes.size(), options);
+  builder.model().isNumbered = false;
   bool colored = false;
   if (isText(path, bytes))
   {

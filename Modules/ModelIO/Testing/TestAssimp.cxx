@@ -102,6 +102,7 @@ TEST(Assimp, ColladaStaysInItsOwnAxesAndUnits)
   const auto model = readBytes("dae", quadDae);
   EXPECT_EQ(brokenPromise(*model), "");
   EXPECT_EQ(model->format, "collada");
+  EXPECT_FALSE(model->isNumbered);
   ASSERT_EQ(model->triangles.size(), 2u);
   EXPECT_LT((model->boundsMin - Eigen::Vector3d(-1, 0, 5)).norm(), 1e-6);
   EXPECT_LT((model->boundsMax - Eigen::Vector3d(0, 1, 5)).norm(), 1e-6);
@@ -117,6 +118,7 @@ TEST(Assimp, FbxText)
   EXPECT_EQ(brokenPromise(*model), "");
   ASSERT_EQ(model->triangles.size(), 2u);
   EXPECT_EQ(model->sourceVertices, 4u);
+  EXPECT_FALSE(model->isNumbered);
   EXPECT_EQ(model->boundsMax, Eigen::Vector3d(1, 1, 5));
 }
 

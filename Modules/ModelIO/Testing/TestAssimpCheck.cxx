@@ -21,6 +21,7 @@ Scene soundScene()
   Mesh mesh;
   mesh.positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
   mesh.normals = mesh.positions;
+  mesh.restNormals = mesh.positions;
   mesh.uvs.resize(3);
   mesh.colors.resize(3);
   mesh.faceSizes = { 3 };
@@ -133,6 +134,7 @@ TEST(AssimpCheck, MeshesAreRefusedForEachListAndIndex)
 {
   expectEachIsRefused({
     { "normals and vertices do not match", [](Scene& s) { meshOf(s).normals.pop_back(); } },
+    { "normals and vertices do not match", [](Scene& s) { meshOf(s).restNormals.pop_back(); } },
     { "texture coordinates and vertices do not match", [](Scene& s) { meshOf(s).uvs.pop_back(); } },
     { "colours and vertices do not match", [](Scene& s) { meshOf(s).colors.pop_back(); } },
     { "faces and their corners do not match", [](Scene& s) { meshOf(s).faceSizes = { 2 }; } },

@@ -95,6 +95,7 @@ TEST(Blend, IsWhatBlenderMakesOfIt)
                  "' > \"$files\"");
   const auto model = dgtk::readModel(folder.path("scene/a.blend"));
   EXPECT_EQ(model->format, "blend");
+  EXPECT_FALSE(model->isNumbered);
   EXPECT_EQ(model->path, folder.path("scene/a.blend"));
   EXPECT_EQ(model->triangles.size(), 1u);
   EXPECT_EQ(model->parts.at(0).name, "Thing");

@@ -55,6 +55,8 @@ ModelEntry fullEntry()
   model->colors = { { 1, 2, 3, 4 }, { 5, 6, 7, 8 }, { 9, 10, 11, 12 } };
   model->sourceVertex = { 3, 1, 2 };
   model->sourceVertices = 4;
+  model->sourceOf = { 0, 1, 2, 3, 1 };
+  model->isNumbered = false;
   model->normalGroup = { 2, 0, 1 };
   model->animations = { { "walk", 2, 9, 12.5, true } };
   model->frames = 11;
@@ -117,10 +119,11 @@ std::string said(const ModelEntry& entry)
     out << x.name << ' ' << x.first << ' ' << x.last << ' ' << x.fps << ' ' << x.beside << '\n';
   }
   list(m.triangles), list(m.rest->positions), list(m.rest->normals), list(m.uvs), list(m.colors);
-  list(std::vector<std::vector<std::uint32_t>>{ m.sourceVertex, m.normalGroup });
+  list(std::vector<std::vector<std::uint32_t>>{ m.sourceVertex, m.sourceOf, m.normalGroup });
   list(std::vector<Eigen::Vector3d>{ m.boundsMin, m.boundsMax });
-  out << m.format << ' ' << m.sourceVertices << ' ' << m.frames << ' ' << m.lines << ' ' << m.declaredTriangles << ' '
-      << m.twoSidedTriangles << ' ' << m.twoSidedSurfaces << ' ' << m.declaredMaterials << '\n';
+  out << m.format << ' ' << m.sourceVertices << ' ' << m.isNumbered << ' ' << m.frames << ' ' << m.lines << ' '
+      << m.declaredTriangles << ' ' << m.twoSidedTriangles << ' ' << m.twoSidedSurfaces << ' ' << m.declaredMaterials
+      << '\n';
   const ModelContents& c = entry.contents;
   for (const ModelPicture& x : c.pictures)
   {
@@ -202,6 +205,7 @@ TEST(ModelEntry, AnIndexBeyondItsListIsNone)
     { "no colours", true, model([](Model& m) { m.colors.clear(); }) },
     { "a source less", false, model([](Model& m) { m.sourceVertex.pop_back(); }) },
     { "beyond the sources", false, model([](Model& m) { m.sourceVertex[1] = 4; }) },
+    { "a vertex of the file beyond the sources", false, model([](Model& m) { m.sourceOf[4] = 4; }) },
     { "a group less", false, model([](Model& m) { m.normalGroup.pop_back(); }) },
     { "beyond the groups", false, model([](Model& m) { m.normalGroup[0] = 3; }) },
     { "no groups", true, model([](Model& m) { m.normalGroup.clear(); }) },

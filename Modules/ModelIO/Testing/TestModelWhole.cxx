@@ -342,7 +342,7 @@ TEST(ModelWhole, Obj)
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 1 0\n"
     "usemtl wall\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl roof\no top\nf 4//2 3//2 5//2\nl 1 2 3\n");
   EXPECT_EQ("\n" + textOf(*dgtk::readModel(folder.path("a.obj"))), R"(
-obj: 9 vertices, 7 split, 3 triangles, declared 0, two-sided 0 of 0, lines 2, materials 3, frames 1
+obj: 5 vertices, 7 split, 3 triangles, declared 0, two-sided 0 of 0, lines 2, materials 3, frames 1
 bounds 0 0 0 to 2 2 0.5
 material 'wall' ambient 0.1 0.2 0.3 diffuse 0.4 0.5 0.6 specular 0.7 0.8 0.9 emission 0.05 0.1 0.15 shininess 20 opacity 0.5 texture 0
 material 'roof' ambient 0 0 0 diffuse 0 1 0 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
@@ -351,9 +351,9 @@ texture wall.png
 1: 2 0 0 | 0 0 1 | 1 0 | 1
 2: 2 1 0 | 0 0 1 | 1 1 | 2
 3: 0 1 0 | 0 0 1 | 0 1 | 3
-4: 0 1 0 | 0 1 0 | 0 0 | 4
-5: 2 1 0 | 0 1 0 | 0 0 | 5
-6: 1 2 0.5 | 0 1 0 | 0 0 | 6
+4: 0 1 0 | 0 1 0 | 0 0 | 3
+5: 2 1 0 | 0 1 0 | 0 0 | 2
+6: 1 2 0.5 | 0 1 0 | 0 0 | 4
 part 'house' material 0, 2 from 0: 0-1-2 0-2-3
 part 'top' material 1, 1 from 2: 4-5-6
 warning texture 'wall.png' not found (tried as written, 'wall.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)

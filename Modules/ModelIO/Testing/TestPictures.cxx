@@ -14,9 +14,12 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <limits>
 #include <map>
+
+#include <sys/resource.h>
 
 using namespace dgtk::test;
 using testing::HasSubstr;
@@ -103,6 +106,53 @@ std::map<std::string, std::string> soundPictures(const TemporaryFolder& folder)
 }
 
 } // namespace
+
+TEST(Pictures, ColoursCountWithoutTheAlphaThatMultipliesThem)
+{
+  const TemporaryFolder folder;
+  const std::uint8_t texels[] = { 64, 128, 0, 128, 10, 20, 30, 255, 0, 0, 0, 0 };
+  for (const int unassociated : { 0, 1 })
+  {
+    const std::string path = folder.path(std::to_string(unassociated) + ".tif");
+    const auto output = OIIO::ImageOutput::create(path);
+    OIIO::ImageSpec spec(3, 1, 4, OIIO::TypeDesc::UINT8);
+    spec["oiio:UnassociatedAlpha"] = unassociated;
+    ASSERT_TRUE(output && output->open(path, spec) && output->write_image(OIIO::TypeDesc::UINT8, texels));
+    output->close();
+    std::string problem;
+    const auto image = dgtk::decodeTexture(path, problem);
+    ASSERT_TRUE(image) << problem;
+    const std::uint8_t red = unassociated ? 64 : 128; // 64 * 255 / 128 is 127.5
+    const std::uint8_t green = unassociated ? 128 : 255;
+    EXPECT_EQ(image->rgba, (std::vector<std::uint8_t>{ red, green, 0, 128, 10, 20, 30, 255, 0, 0, 0, 0 }));
+  }
+}
+
+TEST(Pictures, ALimitOfFileSizesIsSaid)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a.png");
+  ASSERT_FALSE(written(path).empty());
+  std::string problem;
+  ASSERT_TRUE(dgtk::decodeTexture(path, problem)) << problem;
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{ 100, before.rlim_max };
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  std::string said;
+  try
+  {
+    dgtk::decodeTexture(path, problem);
+  }
+  catch (const dgtk::MachineError& error)
+  {
+    said = error.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(said, HasSubstr("bytes here (see ulimit -f)"));
+}
 
 TEST(Pictures, ASoundPictureOfEveryFormatIsWhatTheLibraryReads)
 {

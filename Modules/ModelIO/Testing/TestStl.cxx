@@ -71,6 +71,7 @@ TEST(Stl, Text)
   EXPECT_EQ(model->format, "stl");
   EXPECT_EQ(model->triangles.size(), 12u);
   EXPECT_EQ(model->sourceVertices, 8u);
+  EXPECT_FALSE(model->isNumbered);
   EXPECT_EQ(model->rest->positions.size(), 24u); // flat: four corners a side
   EXPECT_EQ(model->boundsMin, Eigen::Vector3d(-1, -1, -1));
   EXPECT_EQ(model->boundsMax, Eigen::Vector3d(1, 1, 1));

@@ -117,6 +117,32 @@ TEST(TextureFile, TheFolderThatIsWrittenComesFirst)
   EXPECT_EQ(locateTexture(folder.path("car.ac"), "skins/Paint.PNG"), folder.path("skins/paint.tga"));
 }
 
+TEST(TextureFile, FoldersAreFoundInAnyCase)
+{
+  const TemporaryFolder folder;
+  const std::string model = folder.path("car.ac");
+  std::filesystem::create_directories(folder.path("Skins/Red"));
+  std::filesystem::create_directories(folder.path("skins2"));
+  writeFile(folder.path("Skins/Red/paint.png"), "x");
+  writeFile(folder.path("skins2/paint.png"), "x");
+  writeFile(folder.path("paint.png"), "x");
+  EXPECT_EQ(locateTexture(model, "sKINS/red/Paint.png"), folder.path("Skins/Red/paint.png"));
+  EXPECT_EQ(locateTexture(model, "skins\\RED\\paint.tga"), folder.path("Skins/Red/paint.png"));
+  EXPECT_EQ(locateTexture(model, "skins3/red/paint.png"), folder.path("paint.png"));
+}
+
+TEST(TextureFile, OtherExtensionsAreThoseOfAllPictures)
+{
+  const TemporaryFolder folder;
+  writeFile(folder.path("wood.png"), "x");
+  writeFile(folder.path("sky.EXR"), "x");
+  for (const std::string extension : { "webp", "exr", "HDR", "pcx" })
+  {
+    EXPECT_EQ(locateTexture(folder.path("m.ac"), "wood." + extension), folder.path("wood.png")) << extension;
+  }
+  EXPECT_EQ(locateTexture(folder.path("m.ac"), "sky.png"), folder.path("sky.EXR"));
+}
+
 TEST(TextureFile, ShortNames)
 {
   const TemporaryFolder folder;

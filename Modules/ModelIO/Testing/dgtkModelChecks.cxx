@@ -31,6 +31,11 @@ std::string brokenArrays(const Model& model)
   {
     return "one normal group a vertex of a deforming model";
   }
+  if (std::any_of(model.sourceOf.begin(), model.sourceOf.end(),
+        [&model](std::uint32_t source) { return source >= model.sourceVertices; }))
+  {
+    return "vertices of the file have sources";
+  }
   for (std::size_t v = 0; v < vertices; ++v)
   {
     if (!model.rest->positions[v].allFinite())

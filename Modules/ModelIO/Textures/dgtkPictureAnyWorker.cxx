@@ -5,6 +5,8 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -62,6 +64,28 @@ std::unique_ptr<OIIO::ImageInput> open(const Request& request, const std::string
   return input;
 }
 
+/// Colours as they are without their alpha, which some files have multiplied them by.
+void divideByAlpha(std::uint8_t* pixels, std::size_t count, std::size_t channels)
+{
+  for (std::uint8_t* const end = pixels + count * channels; pixels != end; pixels += channels)
+  {
+    const unsigned alpha = pixels[channels - 1];
+    for (std::size_t i = 0; i + 1 < channels && alpha > 0; ++i)
+    {
+      pixels[i] = static_cast<std::uint8_t>(std::min(255U, (pixels[i] * 255U + alpha / 2) / alpha));
+    }
+  }
+}
+
+/// Whether the decoder leaves that to be done.
+bool isMultiplied(const OIIO::ImageInput& input, const Request& request, const Answer& answer)
+{
+  const std::string format = input.format_name();
+  return request.values == Values::Bytes && (format == "tiff" || format == "openexr") &&
+         (answer.channels == 2 || answer.channels == 4) && input.spec().alpha_channel == answer.channels - 1 &&
+         input.spec().get_int_attribute("oiio:UnassociatedAlpha") == 0;
+}
+
 void decode(const Request& request, int file, int memory, Answer& answer)
 {
   std::string problem;
@@ -87,6 +111,11 @@ void decode(const Request& request, int file, int memory, Answer& answer)
     {
       refuse(answer, input->geterror());
       return;
+    }
+    if (isMultiplied(*input, request, answer))
+    {
+      divideByAlpha(static_cast<std::uint8_t*>(pixels.data()), std::size_t(answer.width) * std::size_t(answer.height),
+        std::size_t(answer.channels));
     }
   }
   answer.status = Status::Done;

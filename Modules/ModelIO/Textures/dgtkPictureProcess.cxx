@@ -38,7 +38,9 @@ Descriptor sharedMemory(const std::string& path, std::uint64_t bytes)
   Descriptor memory(::memfd_create("dgtk-picture", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!memory || ::ftruncate(memory.get(), static_cast<off_t>(bytes)) != 0)
   {
-    failMachine(path, "no shared memory of " + std::to_string(bytes) + " bytes: " + std::strerror(errno));
+    const std::string room = std::to_string(bytes) + " bytes";
+    failMachine(path, errno == EFBIG ? "files may not have " + room + " here (see ulimit -f)"
+                                     : "no shared memory of " + room + ": " + std::strerror(errno));
   }
   ::fcntl(memory.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
   return memory;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t mostEntries = 20000;
 
 const char* const imageExtensions[] = { "png", "jpg", "jpeg", "tga", "bmp", "rgb", "rgba", "sgi", "bw", "dds", "gif",
-  "tif", "tiff", "ppm", "pgm", "pnm", "pcx" };
+  "tif", "tiff", "ppm", "pgm", "pnm", "pcx", "webp", "exr", "hdr" };
 
 std::string baseName(const std::string& path)
 {
@@ -53,6 +53,35 @@ bool sameShortStem(const std::string& a, const std::string& b)
     return b.size() >= tilde && a.compare(0, tilde, b, 0, tilde) == 0;
   }
   return a.size() >= 8 && b.size() >= 8 && a.compare(0, 8, b, 0, 8) == 0;
+}
+
+/// A folder beneath another one, by its name in any case; the name as it is where there is none.
+fs::path folderInAnyCase(const fs::path& folder, const fs::path& name)
+{
+  fs::path found = folder;
+  for (const fs::path& part : name)
+  {
+    std::error_code code;
+    std::string next = part.string();
+    std::size_t seen = 0;
+    if (!fs::is_directory(found / part, code))
+    {
+      std::vector<std::string> alike;
+      const fs::path listed = found.empty() ? fs::path(".") : found;
+      for (fs::directory_iterator it(listed, code), end; !code && it != end && seen < mostEntries;
+           it.increment(code), ++seen)
+      {
+        const std::string other = it->path().filename().string();
+        if (lower(other) == lower(next) && it->is_directory(code))
+        {
+          alike.push_back(other);
+        }
+      }
+      next = alike.empty() ? next : *std::min_element(alike.begin(), alike.end());
+    }
+    found /= next;
+  }
+  return found;
 }
 
 /// Names of the pictures of a folder, sorted.
@@ -147,7 +176,7 @@ std::string TextureFinder::find(const std::string& written, std::string* tried)
   std::vector<fs::path> folders = { folder, folder / ".." / "textures" };
   if (relative && name != base && this->mayName((folder / name).string()))
   {
-    folders.insert(folders.begin(), folder / fs::path(name).parent_path());
+    folders.insert(folders.begin(), folderInAnyCase(folder, fs::path(name).parent_path()));
   }
   // a leading dot, in MD2, means the model's own folder
   const std::string wanted = base[0] == '.' ? base.substr(1) : base;

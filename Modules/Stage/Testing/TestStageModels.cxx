@@ -332,6 +332,31 @@ TEST(StageModels, NormalsPassFromTheEndToTheBeginning)
   EXPECT_LT((GeometryCache().get(*flap, { 0, 10, 0.5 })->normals[0] - (upright + up).normalized()).norm(), 1e-6f);
 }
 
+TEST(StageModels, KeypointsAreVerticesOfTheFileByItsNumbers)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("a.obj"), "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 4 3 5\n");
+  writeFile(folder.path("a.stl"),
+    "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+  const auto scene = [](const std::string& file, const std::string& points)
+  { return R"({"objects": [{"name": "a", "model": ")" + file + R"(", "keypoints": )" + points + "}]}"; };
+  const auto state = folder.load(scene("a.obj", R"({"x": 2, "y": 3, "first": 1, "last": 4})"))->at(0);
+  std::vector<Vector> places;
+  for (const KeypointState& point : state->instances[0].keypoints)
+  {
+    places.push_back(point.x_in_object);
+  }
+  EXPECT_EQ(places, (std::vector<Vector>{ { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { 0, 0, 0 } }));
+  const std::string prefix = "scene.json:1: object 'a': keypoints.k is ";
+  EXPECT_EQ(folder.refusalOf(scene("a.obj", R"({"k": 0})")),
+    prefix + "a vertex of no triangle of a.obj (expected a vertex of a surface, found 0)");
+  EXPECT_EQ(folder.refusalOf(scene("a.obj", R"({"k": 5})")),
+    prefix + "no vertex of a.obj (expected a whole number below 5, found 5)");
+  EXPECT_EQ(folder.refusalOf(scene("a.stl", R"({"k": 0})")),
+    prefix + "the number of a vertex: those of a.stl are not numbered (expected a point [x, y, z], found 0)");
+  EXPECT_EQ(folder.refusalOf(scene("a.stl", R"({"k": [0, 0, 0]})")), "");
+}
+
 TEST(StageModels, RefusalsNameTheSceneAndTheObject)
 {
   const ModelFolder folder;

@@ -108,9 +108,7 @@ private:
     {
       return instance.world_from_object * point.position;
     }
-    const std::vector<std::uint32_t>& source = instance.model->sourceVertex;
-    const auto split = std::find(source.begin(), source.end(), *point.vertex);
-    return instance.world_from_object * instance.geometry->positions[std::size_t(split - source.begin())];
+    return instance.world_from_object * instance.geometry->positions[*instance.model->splitVertexOf(*point.vertex)];
   }
 
   KeypointPlace placeOf(const KeypointDescription& point) const

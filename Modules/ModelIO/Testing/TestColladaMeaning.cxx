@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What Collada files mean where Assimp by itself takes them for something else.
+#include "dgtkModelChecks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace dgtk::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace
+{
+const std::string identity = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
+const std::string instance = "<instance_geometry url='#g'/>";
+
+std::string source(const std::string& id, const std::string& type, int count, int stride, const std::string& values)
+{
+  const std::string size = std::to_string(count * stride);
+  std::string text = "<source id='" + id + "'><" + type + "_array id='" + id + "a' count='" + size + "'>" + values +
+                     "</" + type + "_array><technique_common><accessor source='#" + id + "a' count='" +
+                     std::to_string(count) + "' stride='" + std::to_string(stride) + "'>";
+  for (int i = 0; i < (stride == 16 ? 1 : stride); ++i)
+  {
+    text += std::string("<param name='") + "XYZ"[i % 3] + "' type='" + (stride == 16 ? "float4x4" : "float") + "'/>";
+  }
+  return text + "</accessor></technique_common></source>";
+}
+
+/// A triangle, drawn by `nodes`; `inputs` and `corners` are what it has beside its vertices.
+std::string dae(const std::string& nodes, const std::string& libraries = {}, const std::string& sources = {},
+  const std::string& inputs = {}, const std::string& corners = "0 1 2")
+{
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>" +
+         libraries + "<library_geometries><geometry id='g'><mesh>" + source("p", "float", 3, 3, "0 0 0 1 0 0 0 1 0") +
+         sources +
+         "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles material='m' count='1'>"
+         "<input semantic='VERTEX' source='#v' offset='0'/>" +
+         inputs + "<p>" + corners + "</p></triangles></mesh></geometry></library_geometries>" +
+         "<library_visual_scenes><visual_scene id='s'>" + nodes + "</visual_scene></library_visual_scenes>" +
+         "<scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+/// From 0 to 1 in a second.
+std::string animation(const std::string& target, const std::string& between = "LINEAR")
+{
+  return "<library_animations><animation id='A'>" + source("i", "float", 2, 1, "0 1") +
+         source("o", "float", 2, 1, "0 1") + source("n", "Name", 2, 1, between + ' ' + between) +
+         "<sampler id='S'><input semantic='INPUT' source='#i'/><input semantic='OUTPUT' source='#o'/>"
+         "<input semantic='INTERPOLATION' source='#n'/></sampler><channel source='#S' target='" +
+         target + "'/></animation></library_animations>";
+}
+
+/// The triangle as it hangs on one joint, j.
+std::string skin()
+{
+  return "<library_controllers><controller id='c'><skin source='#g'>" + source("j", "Name", 1, 1, "j") +
+         source("b", "float", 1, 16, identity) + source("w", "float", 1, 1, "1") +
+         "<joints><input semantic='JOINT' source='#j'/><input semantic='INV_BIND_MATRIX' source='#b'/></joints>"
+         "<vertex_weights count='3'><input semantic='JOINT' source='#j' offset='0'/>"
+         "<input semantic='WEIGHT' source='#w' offset='1'/><vcount>1 1 1</vcount><v>0 0 0 0 0 0</v></vertex_weights>"
+         "</skin></controller></library_controllers>";
+}
+
+const std::string drawnSkin = "<instance_controller url='#c'><skeleton>#r</skeleton></instance_controller>";
+
+std::vector<Eigen::Vector3d> inTheMiddle(const dgtk::Model& model)
+{
+  std::vector<Eigen::Vector3d> positions;
+  if (model.deformation)
+  {
+    model.deformation->positionsAt(0, 0.5 * model.animations.at(0).fps, positions);
+  }
+  return positions;
+}
+
+std::vector<std::string> partsOf(const dgtk::Model& model)
+{
+  std::vector<std::string> names;
+  for (const dgtk::Part& part : model.parts)
+  {
+    names.push_back(part.name);
+  }
+  return names;
+}
+
+void expectClose(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  EXPECT_LT((a - b).norm(), 1e-6) << a.transpose() << " instead of " << b.transpose();
+}
+} // namespace
+
+TEST(ColladaMeaning, NodesWithoutNamesMove)
+{
+  const auto model = readBytes("dae",
+    dae("<node><node id='a'><translate sid='t'>0 0 0</translate>" + instance + "</node></node>", animation("a/t.Z")));
+  EXPECT_EQ(brokenPromise(*model), "");
+  EXPECT_THAT(partsOf(*model), ElementsAre("$ColladaAutoName$_1"));
+  const auto positions = inTheMiddle(*model);
+  ASSERT_EQ(positions.size(), 3u);
+  expectClose(positions[0], { 0, 0, 0.5 });
+}
+
+TEST(ColladaMeaning, TheNodeOfAChannelsIdMovesWhateverOthersAreNamed)
+{
+  const std::string text =
+    dae("<node id='a' name='part'><translate sid='t'>5 0 0</translate>" + instance + "</node><node id='x' name='b'>" +
+          "<translate sid='t'>6 0 0</translate>" + instance +
+          "</node><node id='b' name='part'><translate sid='t'>7 0 0</translate>" + instance + "</node>",
+      animation("b/t.Z"));
+  const auto model = readBytes("dae", text);
+  EXPECT_EQ(brokenPromise(*model), "");
+  EXPECT_THAT(partsOf(*model), ElementsAre("part", "b", "part"));
+  const auto positions = inTheMiddle(*model);
+  ASSERT_EQ(positions.size(), 9u);
+  expectClose(positions[0], { 5, 0, 0 });
+  expectClose(positions[3], { 6, 0, 0 });
+  expectClose(positions[6], { 7, 0, 0.5 });
+}
+
+TEST(ColladaMeaning, SkinsFollowJointsWithoutNames)
+{
+  for (const std::string names : { "", " id='r'", " name='j'", " name='j' id='r'" })
+  {
+    const auto model = readBytes("dae",
+      dae("<node id='z' name='j'/><node" + names +
+            " sid='j' type='JOINT'><translate>0 0 2</translate></node><node id='d' name='d'>" + drawnSkin + "</node>",
+        skin()));
+    EXPECT_EQ(model->boundsMin, Eigen::Vector3d(0, 0, 2)) << names;
+    EXPECT_TRUE(model->warnings.empty()) << names;
+  }
+}
+
+TEST(ColladaMeaning, SeveralJointsOfOneSidHaveAWarning)
+{
+  const auto model = readBytes("dae",
+    dae("<node id='r' sid='j' type='JOINT'/><node id='q' sid='j' type='JOINT'/><node id='d'>" + drawnSkin + "</node>",
+      skin()));
+  EXPECT_THAT(model->warnings, ElementsAre("several joints have the same sid: skins follow the first one"));
+}
+
+TEST(ColladaMeaning, AxesHaveAnyLength)
+{
+  const double c = std::cos(M_PI / 6);
+  for (const std::string axis : { "0 0 1", "0 0 2", " 0 0.0 1e-3", "0 0 +7.5e3" })
+  {
+    const auto model =
+      readBytes("dae", dae("<node id='a' name='a'><rotate>" + axis + " 30</rotate>" + instance + "</node>"));
+    expectClose(model->boundsMax, { c, c, 0 });
+    expectClose(model->boundsMin, { -0.5, 0, 0 });
+  }
+}
+
+/// A place that looks along x, its upper side leaning: y is up, z points back.
+TEST(ColladaMeaning, TheUpperSideOfAPlaceNeedNotBePerpendicular)
+{
+  for (const std::string up : { "0 1 0", "3 4 0" })
+  {
+    const auto model =
+      readBytes("dae", dae("<node id='a' name='a'><lookat>1 2 3 5 2 3 " + up + "</lookat>" + instance + "</node>"));
+    expectClose(model->boundsMin, { 1, 2, 3 });
+    expectClose(model->boundsMax, { 1, 3, 4 });
+  }
+}
+
+TEST(ColladaMeaning, MaterialsSayWhichTextureCoordinatesTheyHave)
+{
+  struct Row
+  {
+    const char* channel;
+    const char* other; ///< set of coordinates that are all 0.25, or ""
+    const char* set;   ///< that of the drawn ones
+  };
+  for (const Row& row : { Row{ "UV", "", "0" }, { "UV", "0", "1" }, { "UV", "1", "0" }, { "UV", "3", "7" },
+         { "CHANNEL1", "", "0" }, { "CHANNEL1", "", "1" }, { "CHANNEL1", "0", "1" }, { "CHANNEL1", "1", "0" } })
+  {
+    const std::string effect =
+      std::string("<library_images><image id='i'><init_from>i.png</init_from></image></library_images>"
+                  "<library_effects><effect id='e'><profile_COMMON><newparam sid='u'><surface type='2D'>"
+                  "<init_from>i</init_from></surface></newparam><newparam sid='w'><sampler2D><source>u</source>"
+                  "</sampler2D></newparam><technique sid='c'><lambert><diffuse><texture texture='w' texcoord='") +
+      row.channel +
+      "'/></diffuse></lambert></technique></profile_COMMON></effect></library_effects><library_materials>"
+      "<material id='M'><instance_effect url='#e'/></material></library_materials>";
+    const std::string bound =
+      std::string("<instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='m' "
+                  "target='#M'><bind_vertex_input semantic='") +
+      row.channel + "' input_semantic='TEXCOORD' input_set='" + row.set +
+      "'/></instance_material></technique_common></bind_material></instance_geometry>";
+    const bool hasOther = row.other[0] != '\0';
+    const std::string other =
+      hasOther ? std::string("<input semantic='TEXCOORD' source='#f' offset='1' set='") + row.other + "'/>" : "";
+    const auto model = readBytes(
+      "dae", dae("<node id='a' name='a'>" + bound + "</node>", effect,
+               source("t", "float", 3, 2, "0 0 1 0 0.5 1") + source("f", "float", 3, 2, ".25 .25 .25 .25 .25 .25"),
+               other + "<input semantic='TEXCOORD' source='#t' offset='1' set='" + row.set + "'/>", "0 0 1 1 2 2"));
+    const std::string text = std::string(row.channel) + ' ' + row.other + ' ' + row.set;
+    ASSERT_EQ(model->uvs.size(), 3u) << text;
+    EXPECT_NEAR(model->uvs[1].x(), 1, 1e-6) << text;
+    EXPECT_NEAR(model->uvs[2].x(), 0.5, 1e-6) << text;
+  }
+}
+
+TEST(ColladaMeaning, NodesWithoutMeshesDrawNothing)
+{
+  std::string text = dae("<node id='a' name='a'><node id='b' name='b'><translate>1 0 0</translate></node></node>");
+  EXPECT_EQ(readBytes("dae", text)->triangles.size(), 0u);
+  const std::size_t begin = text.find("<library_geometries>");
+  text.erase(begin, text.find("<library_visual_scenes>") - begin);
+  EXPECT_EQ(readBytes("dae", text)->triangles.size(), 0u);
+}
+
+TEST(ColladaMeaning, WhatIsNotReadIsSaid)
+{
+  const std::string node = "<node id='a' name='a'><translate sid='t'>0 0 0</translate>" + instance + "</node>";
+  EXPECT_TRUE(readBytes("dae", dae(node, animation("a/t.Z")))->warnings.empty());
+  for (const char* const between : { "STEP", "BEZIER", "HERMITE" })
+  {
+    EXPECT_THAT(readBytes("dae", dae(node, animation("a/t.Z", between)))->warnings,
+      ElementsAre("steps and curves between keys of animations are played as straight lines"));
+  }
+  EXPECT_THAT(refusal("dae", dae("<node id='a' name='a'><skew>30 1 0 0 0 1 0</skew>" + instance + "</node>")),
+    HasSubstr("cannot be read: skewed nodes are not read"));
+  EXPECT_THAT(refusal("dae", dae(node, "<library_controllers><controller id='c'><morph source='#g'/></controller>"
+                                       "</library_controllers>")),
+    HasSubstr("cannot be read: morph controllers are not read"));
+  std::string holed = dae(node);
+  holed.replace(holed.find("<p>"), 12, "<ph><p>0 1 2</p><h>0 1 2</h></ph>");
+  EXPECT_THAT(refusal("dae", holed), HasSubstr("cannot be read: polygons with holes (<ph>) are not read"));
+}
+
+TEST(ColladaMeaning, ColoursOfFacesOfOffFilesHaveAWarning)
+{
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  for (const std::string head : { "OFF\n3 1 0\n", "OFF 3 1 3 # c\n# comment\n\n", "3 1 0\n" })
+  {
+    EXPECT_TRUE(readBytes("off", head + points + "3 0 1 2 # 1 0 0\n")->warnings.empty()) << head;
+    for (const std::string color : { " 255 0 0", " .5 .5 .5 1", " 7" })
+    {
+      EXPECT_THAT(readBytes("off", head + points + "3 0 1 2" + color + '\n')->warnings,
+        ElementsAre("colours of faces are not drawn"))
+        << head;
+    }
+  }
+}
