@@ -181,18 +181,20 @@ bool dgtkSnapshot::CountCells()
         counts.push_back(zeros(actor.inputCells));
         pixels.push_back(counts.back()->GetPointer(0));
       }
-      const dgtk::InterpreterPause pause;
-      dgtk::traceTiles(*view.stage, self.camera,
-        [&](const dgtk::VisibilityBuffer& tile)
-        {
-          for (const dgtk::Hit& hit : tile.hits)
+      {
+        const dgtk::InterpreterPause pause;
+        dgtk::traceTiles(*view.stage, self.camera,
+          [&](const dgtk::VisibilityBuffer& tile)
           {
-            if (hit.object != 0)
+            for (const dgtk::Hit& hit : tile.hits)
             {
-              ++pixels[view.actorOf(hit)][dgtk::cellOf(view, hit)];
+              if (hit.object != 0)
+              {
+                ++pixels[view.actorOf(hit)][dgtk::cellOf(view, hit)];
+              }
             }
-          }
-        });
+          });
+      }
       self.counts.swap(counts);
     });
 }
@@ -214,9 +216,8 @@ vtkDataArray* dgtkSnapshot::CountPixels(int index)
 bool dgtkSnapshot::Correspond(dgtkSnapshot* other)
 {
   Internal& self = *this->Self;
-  self.positions = vtkSmartPointer<vtkDoubleArray>::New();
-  self.positions->SetNumberOfComponents(2);
-  self.classes = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  self.positions = nullptr;
+  self.classes = nullptr;
   return this->Attempt(
     [&]
     {
@@ -224,12 +225,20 @@ bool dgtkSnapshot::Correspond(dgtkSnapshot* other)
       {
         throw dgtk::UsageError("there is no other snapshot");
       }
+      const dgtk::FrozenView& from = self.taken();
+      const dgtk::FrozenView& to = other->Self->taken();
       const vtkIdType pixels = vtkIdType(this->GetWidth()) * this->GetHeight();
-      self.positions->SetNumberOfTuples(pixels);
-      self.classes->SetNumberOfTuples(pixels);
-      const dgtk::InterpreterPause pause;
-      dgtk::correspondViews(
-        self.taken(), other->Self->taken(), self.positions->GetPointer(0), self.classes->GetPointer(0));
+      const auto positions = vtkSmartPointer<vtkDoubleArray>::New();
+      positions->SetNumberOfComponents(2);
+      positions->SetNumberOfTuples(pixels);
+      const auto classes = vtkSmartPointer<vtkUnsignedCharArray>::New();
+      classes->SetNumberOfTuples(pixels);
+      {
+        const dgtk::InterpreterPause pause;
+        dgtk::correspondViews(from, to, positions->GetPointer(0), classes->GetPointer(0));
+      }
+      self.positions = positions;
+      self.classes = classes;
     });
 }
 

@@ -4,8 +4,9 @@
  * @brief What a VTK renderer shows, frozen: a scene of one camera, one frame and an object for each visible actor.
  *
  * It takes surfaces: actors, also in assemblies, that draw vtkPolyData, composite data, the surface of other data sets
- * or glyphs. Objects have the ids 1, 2, ... in the order in which the renderer has its props. Nothing is drawn: the
- * renderer needs no window and no display. What changes afterwards does not change the snapshot.
+ * or glyphs. Objects have the ids 1, 2, ... in the order in which the renderer has its props, those without triangles
+ * left out. Nothing is drawn: the renderer needs no window and no display. What changes afterwards does not change the
+ * snapshot.
  *
  * Pixels: rows from top to bottom, the centre of the first one is (0.5, 0.5). Methods that can fail return false, or
  * null, and leave a line in GetErrorMessage().

@@ -164,6 +164,16 @@ class Scenes(Case):
         self.assertEqual(type(again), dgtk.Scene)
         self.assertEqual((again.description(), again.folder), (dgtk.load(DEMO).description(), dgtk.load(DEMO).folder))
 
+    def test_a_folder_whose_name_is_no_utf8(self):
+        folder = os.path.join(os.path.realpath(self.folder), "f\udcff")
+        os.mkdir(folder)
+        shutil.copy(os.path.join(SOURCE, "Data", "Models", "floor.ac"), folder)
+        made = dgtk.scene({"objects": [{"name": "floor", "model": "floor.ac"}]}, folder=folder)
+        self.assertEqual(made.folder, folder)
+        description = made.description()
+        for again in (pickle.loads(pickle.dumps(made)), dgtk.scene(description, like=made), dgtk.scene(description, folder=made.folder)):
+            self.assertEqual((again.folder, again.objects), (folder, ["floor"]))
+
     def test_an_empty_scene_and_an_empty_dict(self):
         self.assertEqual(dgtk.Scene().description(), {})
         with self.assertRaisesRegex(ValueError, "no scene is set"):

@@ -37,7 +37,7 @@ def polygon_triangles(poly, cell):
         return [(ids[j], ids[j + 1 + j % 2], ids[j + 1 + (j + 1) % 2]) for j in range(len(ids) - 2)]
     p = numpy.array([poly.GetPoint(i) for i in ids])
     normals = numpy.array([numpy.cross(p[i] - p[0], p[i + 1] - p[0]) for i in range(1, len(ids) - 1)])
-    if len(ids) <= 4 or (normals @ normals.sum(0) >= 0).all():
+    if len(ids) <= 3 or (normals @ normals.sum(0) >= 0).all():
         return fan(ids)
     return [tuple(ids)]
 

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace dgtk
 {
@@ -416,6 +417,13 @@ Material actorMaterial(
       material.cutOut = made.image->hasAlpha;
       made.image = texture->GetUseSRGBColorSpace() ? linearised(*made.image) : made.image;
     }
+  }
+  for (const auto& [kind, texture] : property.GetAllTextures())
+  {
+    static const std::set<std::string> ofPhysical{ "albedoTex", "materialTex", "normalTex", "emissiveTex",
+      "anisotropyTex", "coatNormalTex" }; // which VTK leaves out of other surfaces
+    refuse(hasCoordinates && !material.physical && ofPhysical.count(kind) == 0,
+      ("the texture " + kind + " of its property").c_str());
   }
   refuse(actor.GetTexture() != nullptr && !material.physical && piece.colorMapAt != nullptr,
     "a texture beside scalars that are interpolated before they are mapped");

@@ -11,6 +11,8 @@
 #include <vtkActor.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <optional>
 
 namespace dgtk
@@ -42,8 +44,8 @@ Eigen::Vector3d pointOf(const Model& model, std::uint32_t triangle, const Eigen:
   return first + place.x() * (p[corners[1]] - first) + place.y() * (p[corners[2]] - first);
 }
 
-/// The triangle of another surface of the same cells: points that move may meet, and the triangle is left out.
-std::optional<std::uint32_t> triangleIn(const SurfaceModel& other, const SurfaceModel& one, std::uint32_t triangle)
+/// A triangle's number among all of a surface, also those that were left out.
+std::uint32_t numberOf(const SurfaceModel& one, std::uint32_t triangle)
 {
   std::size_t before = 0; // how many of one's left out come before it
   for (std::size_t end = one.leftOut.size(); before < end;)
@@ -58,12 +60,139 @@ std::optional<std::uint32_t> triangleIn(const SurfaceModel& other, const Surface
       end = middle;
     }
   }
-  const auto number = std::uint32_t(triangle + before);
+  return std::uint32_t(triangle + before);
+}
+
+/// The triangle of another surface of the same cells: points that move may meet, and the triangle is left out.
+std::optional<std::uint32_t> triangleOf(const SurfaceModel& other, std::uint32_t number)
+{
   const auto after = std::lower_bound(other.leftOut.begin(), other.leftOut.end(), number);
   return after != other.leftOut.end() && *after == number
            ? std::nullopt
            : std::optional(number - std::uint32_t(after - other.leftOut.begin()));
 }
+
+/// How the polygon of a triangle was cut; null: as a fan.
+const PolygonCut* cutOf(const SurfaceModel& surface, std::uint32_t number)
+{
+  const auto after = std::upper_bound(surface.cuts.begin(), surface.cuts.end(), number,
+    [](std::uint32_t wanted, const PolygonCut& cut) { return wanted < cut.first; });
+  const bool found =
+    after != surface.cuts.begin() && number - std::prev(after)->first < std::prev(after)->triangles.size();
+  return found ? &*std::prev(after) : nullptr;
+}
+
+struct Surface
+{
+  std::uint32_t triangle;
+  Eigen::Vector2d place; ///< barycentric coordinates of the second and third corner
+};
+
+/// Which of some triangles has a point.
+class PlaceFinder
+{
+public:
+  PlaceFinder(const Model& model, const Eigen::Vector3d& wanted)
+    : In(model)
+    , Wanted(wanted)
+  {
+  }
+
+  void look(std::uint32_t triangle)
+  {
+    const Eigen::Vector2d place = placeIn(this->In, triangle, this->Wanted);
+    const double inside = std::min(place.minCoeff(), 1 - place.sum());
+    if (inside >= this->Best)
+    {
+      this->Best = inside;
+      this->Found = { triangle, place };
+    }
+  }
+
+  std::optional<Surface> Found;
+
+private:
+  const Model& In;
+  Eigen::Vector3d Wanted;
+  double Best = -roundingOfPlaces;
+};
+
+/// A point of a polygon in another surface of the same cells, which may have cut it otherwise: it keeps its place among
+/// the corners of its own triangle.
+class Polygon
+{
+public:
+  Polygon(const SurfaceModel& one, const SurfaceModel& other, std::uint32_t number)
+    : One(one)
+    , Other(other)
+    , Number(number)
+  {
+    const PolygonCut* const mine = cutOf(one, number);
+    const PolygonCut* const others = cutOf(other, number);
+    this->IsSame = mine == others || (mine && others && mine->triangles == others->triangles);
+    const PolygonCut* const any = mine != nullptr ? mine : others;
+    this->First = any != nullptr ? any->first : number;
+    this->End = any != nullptr ? any->first + std::uint32_t(any->triangles.size()) : number + 1;
+  }
+
+  std::optional<Surface> follow(const Eigen::Vector2d& place) const
+  {
+    if (this->IsSame)
+    {
+      const std::optional<std::uint32_t> there = triangleOf(this->Other, this->Number);
+      return there ? std::optional(Surface{ *there, place }) : std::nullopt;
+    }
+    const Model& model = *this->Other.model;
+    std::optional<Eigen::Vector3d> moved[3];
+    this->forOthers(
+      [&](std::uint32_t number, std::uint32_t triangle)
+      {
+        const auto mine = this->corners(this->One, this->Number);
+        const auto others = this->corners(this->Other, number);
+        for (int i = 0; i < 9; ++i)
+        {
+          if (mine[std::size_t(i / 3)] == others[std::size_t(i % 3)])
+          {
+            moved[i / 3] = model.rest->positions[model.triangles[triangle][std::size_t(i % 3)]];
+          }
+        }
+      });
+    if (!moved[0] || !moved[1] || !moved[2])
+    {
+      return std::nullopt;
+    }
+    PlaceFinder finder(model, *moved[0] + place.x() * (*moved[1] - *moved[0]) + place.y() * (*moved[2] - *moved[0]));
+    this->forOthers([&](std::uint32_t, std::uint32_t triangle) { finder.look(triangle); });
+    return finder.Found;
+  }
+
+private:
+  template <class Look>
+  void forOthers(const Look& look) const
+  {
+    for (std::uint32_t number = this->First; number < this->End; ++number)
+    {
+      if (const std::optional<std::uint32_t> triangle = triangleOf(this->Other, number))
+      {
+        look(number, *triangle);
+      }
+    }
+  }
+
+  std::array<std::uint32_t, 3> corners(const SurfaceModel& surface, std::uint32_t number) const
+  {
+    const PolygonCut* const cut = cutOf(surface, number);
+    const std::uint32_t k = number - this->First;
+    return cut != nullptr ? cut->triangles[number - cut->first] : std::array<std::uint32_t, 3>{ 0, k + 1, k + 2 };
+  }
+
+  const SurfaceModel& One;
+  const SurfaceModel& Other;
+  std::uint32_t Number;
+  bool IsSame;
+  std::uint32_t First; ///< number of the polygon's first triangle
+  std::uint32_t End;
+};
 
 /// Whether the triangles of two surfaces are of the same cells; glyphs may be copies in one of them.
 bool haveSameCells(const SurfaceModel& one, const SurfaceModel& other)
@@ -77,7 +206,7 @@ bool haveSameCells(const SurfaceModel& one, const SurfaceModel& other)
     bool same = one.cells.size() + one.leftOut.size() == other.cells.size() + other.leftOut.size();
     for (std::uint32_t triangle = 0; same && triangle < one.cells.size(); ++triangle)
     {
-      const std::optional<std::uint32_t> there = triangleIn(other, one, triangle);
+      const std::optional<std::uint32_t> there = triangleOf(other, numberOf(one, triangle));
       same = !there || one.cells[triangle] == other.cells[*there];
     }
     return same;
@@ -162,12 +291,13 @@ private:
     const FrozenActor& other = this->To.actors[object - 1];
     if (!other.whole->copies && !actor.whole->copies)
     {
-      const std::optional<std::uint32_t> there = triangleIn(*other.whole, *actor.whole, point.triangle);
+      const std::uint32_t number = numberOf(*actor.whole, point.triangle);
+      const std::optional<Surface> there = Polygon(*actor.whole, *other.whole, number).follow(point.place);
       if (!there)
       {
         return {};
       }
-      point.triangle = *there;
+      point = *there;
     }
     if (!other.parents.empty() && !findShown(other, point))
     {
@@ -183,32 +313,17 @@ private:
     return correspond(this->Other, there, point.place);
   }
 
-  struct Surface
-  {
-    std::uint32_t triangle;
-    Eigen::Vector2d place; ///< barycentric coordinates of the second and third corner
-  };
-
   /// The piece of a triangle of the whole that has its point; false where that is not shown.
   static bool findShown(const FrozenActor& actor, Surface& point)
   {
-    const Eigen::Vector3d wanted = pointOf(*actor.whole->model, point.triangle, point.place);
+    PlaceFinder finder(*actor.model, pointOf(*actor.whole->model, point.triangle, point.place));
     const auto pieces = std::equal_range(actor.parents.begin(), actor.parents.end(), point.triangle);
-    double best = -roundingOfPlaces;
-    bool found = false;
     for (auto piece = pieces.first; piece != pieces.second; ++piece)
     {
-      const auto triangle = std::uint32_t(piece - actor.parents.begin());
-      const Eigen::Vector2d place = placeIn(*actor.model, triangle, wanted);
-      const double inside = std::min(place.minCoeff(), 1 - place.sum());
-      if (inside >= best)
-      {
-        best = inside;
-        point = { triangle, place };
-        found = true;
-      }
+      finder.look(std::uint32_t(piece - actor.parents.begin()));
     }
-    return found;
+    point = finder.Found.value_or(point);
+    return finder.Found.has_value();
   }
 
   const FrozenView& From;

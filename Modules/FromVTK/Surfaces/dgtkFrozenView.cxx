@@ -41,6 +41,7 @@ public:
     return { model, std::shared_ptr<const std::vector<Material>>(model, &model->materials), false, copies };
   }
   std::shared_ptr<const EnvironmentState> environment(const SceneDescription&) const override { return nullptr; }
+  bool cutsAtWhite() const override { return true; }
   std::shared_ptr<GeometryCache> geometries() const override { return this->Geometries; }
 
   std::map<std::string, std::pair<std::shared_ptr<const Model>, std::shared_ptr<const std::vector<ModelCopy>>>> Models;

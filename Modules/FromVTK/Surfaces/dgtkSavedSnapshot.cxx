@@ -23,6 +23,7 @@ namespace dgtk
 namespace
 {
 constexpr const char* modelFolder = "models";
+constexpr double leastOpacity = 1e-6; ///< of files: readers have an opacity of 0 for a mistake, and what has it opaque
 
 std::string joinedNumbers(const double* numbers, std::size_t count)
 {
@@ -105,11 +106,11 @@ private:
     for (const Material& m : this->From.materials)
     {
       text += "newmtl " + m.name + '\n' + rowOf("Ka", ambientScale * m.ambient) + rowOf("Kd", m.diffuse) +
-              rowOf("Ks", m.specular) + "Ns " + shortest(m.shininess) + "\nd " + shortest(m.opacity) + '\n';
+              rowOf("Ks", m.specular) + "Ns " + shortest(m.shininess) + "\nd " +
+              shortest(std::max(m.opacity, leastOpacity)) + '\n';
       if (m.texture >= 0 || this->MapIsTexture)
       {
-        const bool clamped =
-          m.texture >= 0 && this->From.textures[std::size_t(m.texture)].wrap[0] == TextureWrap::Clamp;
+        const bool clamped = m.texture < 0 || this->From.textures[std::size_t(m.texture)].wrap[0] == TextureWrap::Clamp;
         text += std::string("map_Kd ") + (clamped ? "-clamp on " : "") +
                 this->picture(m.texture >= 0 ? std::size_t(m.texture) : this->From.textures.size()) + '\n';
       }

@@ -202,7 +202,7 @@ private:
 
   void polygon(vtkIdType count, const vtkIdType* points)
   {
-    if (count <= 4 || this->isFan(count, points))
+    if (count <= 3 || this->isFan(count, points))
     {
       for (vtkIdType i = 1; i + 1 < count; ++i)
       {
@@ -217,6 +217,7 @@ private:
     }
     std::vector<std::array<std::uint32_t, 3>> triangles;
     triangulate(corners, triangles, this->Work, mostWork);
+    this->To.cuts.push_back({ std::uint32_t(this->To.cells.size() + this->To.leftOut.size()), triangles });
     for (const auto& t : triangles)
     {
       this->triangle({ points[t[0]], points[t[1]], points[t[2]] });
@@ -226,15 +227,20 @@ private:
   /// Whether the triangles of a fan all turn as the polygon does.
   bool isFan(vtkIdType count, const vtkIdType* points) const
   {
-    std::vector<Eigen::Vector3d> normals;
-    Eigen::Vector3d sum(0, 0, 0);
     const Eigen::Vector3d first = this->point(points[0]);
+    const auto normal = [&](vtkIdType i)
+    { return Eigen::Vector3d((this->point(points[i]) - first).cross(this->point(points[i + 1]) - first)); };
+    Eigen::Vector3d sum(0, 0, 0);
     for (vtkIdType i = 1; i + 1 < count; ++i)
     {
-      normals.push_back((this->point(points[i]) - first).cross(this->point(points[i + 1]) - first));
-      sum += normals.back();
+      sum += normal(i);
     }
-    return std::all_of(normals.begin(), normals.end(), [&sum](const Eigen::Vector3d& n) { return n.dot(sum) >= 0; });
+    bool same = true;
+    for (vtkIdType i = 1; same && i + 1 < count; ++i)
+    {
+      same = !(normal(i).dot(sum) < 0); // as VTK where a point is no number
+    }
+    return same;
   }
 
   void strip(vtkIdType count, const vtkIdType* points)

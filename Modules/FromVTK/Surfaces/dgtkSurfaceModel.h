@@ -19,6 +19,13 @@ class vtkActor;
 namespace dgtk
 {
 
+/// A polygon that was cut otherwise than into a fan.
+struct PolygonCut
+{
+  std::uint32_t first = 0;                             ///< number of its first triangle, of all of them
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< corners of the polygon
+};
+
 /// A model in memory, and where its triangles come from.
 struct SurfaceModel
 {
@@ -26,6 +33,7 @@ struct SurfaceModel
   std::vector<std::int64_t> cells;    ///< of the mapper's input, one a triangle; with copies, one a copy
   /// Numbers, in the order of all triangles, of those that were left out for their points; not of copies.
   std::vector<std::uint32_t> leftOut;
+  std::vector<PolygonCut> cuts; ///< ascending; not of copies
   /// What it is made of instead, in the order of their triangles; null: `model`.
   std::shared_ptr<const std::vector<ModelCopy>> copies;
   std::vector<std::array<std::uint8_t, 4>> tints; ///< R, G, B, A of the copies, or none

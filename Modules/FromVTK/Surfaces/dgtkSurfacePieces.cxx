@@ -9,9 +9,14 @@
 #include <vtkDataObjectTree.h>
 #include <vtkDataObjectTreeRange.h>
 #include <vtkDataSetSurfaceFilter.h>
+#include <vtkIdTypeArray.h>
 #include <vtkMapper.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkScalarsToColors.h>
+
+#include <limits>
+#include <numeric>
 
 namespace dgtk
 {
@@ -39,12 +44,26 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet& data, vtkSmartPointer<vtkData
   {
     return poly;
   }
+  // The filter's own numbers are wrong for cells of higher order (VTK 9.1), but not which cell's values it copies.
+  constexpr const char* name = "dgtkCells";
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName(name);
+  numbers->SetNumberOfValues(data.GetNumberOfCells());
+  std::iota(numbers->GetPointer(0), numbers->GetPointer(data.GetNumberOfCells()), vtkIdType(0));
+  const auto numbered = vtkSmartPointer<vtkDataSet>::Take(data.NewInstance());
+  numbered->ShallowCopy(&data);
+  numbered->GetCellData()->AddArray(numbers);
   vtkNew<vtkDataSetSurfaceFilter> surface;
-  surface->SetInputDataObject(&data);
-  surface->PassThroughCellIdsOn();
+  surface->SetInputDataObject(numbered);
   surface->Update();
   vtkSmartPointer<vtkPolyData> made = surface->GetOutput();
-  cells = made->GetCellData()->GetArray(surface->GetOriginalCellIdsName());
+  cells = made->GetCellData()->GetArray(name);
+  const vtkIdType count = made->GetNumberOfCells();
+  if (count > 0 && (cells == nullptr || cells->GetNumberOfTuples() < count || cells->GetRange()[0] < 0 ||
+                     cells->GetRange()[1] >= double(data.GetNumberOfCells())))
+  {
+    throw InputError("VTK scene", "has a surface whose cells VTK does not know");
+  }
   return made;
 }
 
@@ -164,8 +183,21 @@ private:
     if (!style.color)
     {
       mapColors(this->Mapper, *piece.data, piece);
+      this->mapMissing(piece);
     }
     this->Pieces.push_back(std::move(piece));
+  }
+
+  /// A block without the scalars that are mapped, where the mapper gives it the colour of what is no number.
+  void mapMissing(SurfacePiece& piece) const
+  {
+    auto* const composite = vtkCompositePolyDataMapper2::SafeDownCast(&this->Mapper);
+    if (composite != nullptr && composite->GetColorMissingArraysWithNanColor() &&
+        composite->GetScalarVisibility() != 0 && piece.colors == nullptr && piece.colorMapAt == nullptr)
+    {
+      piece.blockColor.emplace();
+      composite->GetLookupTable()->GetColor(std::numeric_limits<double>::quiet_NaN(), piece.blockColor->data());
+    }
   }
 
   const ViewActor& Actor;

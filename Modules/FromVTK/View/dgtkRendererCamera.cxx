@@ -130,11 +130,12 @@ private:
 };
 
 /// A camera that sees all props, as the renderer makes one when it draws for the first time.
-vtkSmartPointer<vtkCamera> overview(vtkRenderer& renderer)
+vtkSmartPointer<vtkCamera> overview(vtkRenderer& renderer, double aspect)
 {
   double bounds[6];
   renderer.ComputeVisiblePropBounds(bounds);
   vtkNew<vtkRenderer> apart;
+  apart->SetAspect(aspect, 1);
   apart->ResetCamera(bounds);
   return apart->GetActiveCamera();
 }
@@ -177,10 +178,10 @@ std::pair<int, int> rendererSize(vtkRenderer& renderer)
 RendererCamera rendererCamera(vtkRenderer& renderer, int width, int height)
 {
   RendererCamera view;
-  const bool made = renderer.IsActiveCameraCreated() != 0;
-  view.camera = made ? vtkSmartPointer<vtkCamera>(renderer.GetActiveCamera()) : overview(renderer);
-  view.drawn = made && wasDrawn(renderer);
   const double aspect = double(width) / height;
+  const bool made = renderer.IsActiveCameraCreated() != 0;
+  view.camera = made ? vtkSmartPointer<vtkCamera>(renderer.GetActiveCamera()) : overview(renderer, aspect);
+  view.drawn = made && wasDrawn(renderer);
   const Eigen::Matrix4d viewFromWorld = matrixOf(*view.camera->GetModelViewTransformMatrix());
   const Eigen::Matrix4d clip = matrixOf(*view.camera->GetProjectionTransformMatrix(aspect, -1, 1)) * viewFromWorld;
   const Eigen::Vector4d eye = viewFromWorld.inverse().col(3);

@@ -72,13 +72,13 @@ public:
       vtkProp* const leaf = node->GetViewProp();
       if (leaf != nullptr && leaf->GetVisibility() != 0)
       {
-        this->addLeaf(*leaf, node->GetMatrix());
+        this->addLeaf(*leaf, node->GetMatrix(), path->GetNumberOfItems() > 1);
       }
     }
   }
 
 private:
-  void addLeaf(vtkProp& leaf, const vtkMatrix4x4* matrix)
+  void addLeaf(vtkProp& leaf, const vtkMatrix4x4* matrix, bool isPart)
   {
     vtkActor* const actor = vtkActor::SafeDownCast(&leaf);
     if (actor == nullptr || !isPlain(*actor))
@@ -93,6 +93,11 @@ private:
     if (matrix != nullptr && !isAffine(*matrix))
     {
       this->Out.add(numbered(classOf(leaf), this->Props) + " with a projective matrix");
+      return;
+    }
+    if (isPart && leaf.IsA("vtkFollower") != 0)
+    {
+      this->Out.add(numbered(classOf(leaf), this->Props) + " in an assembly"); // VTK turns it once more
       return;
     }
     ViewActor found;

@@ -23,9 +23,9 @@ def with_options(function, lines):
         function.__doc__ += f"\n    {name}: {text}" + (f" [{default}]" if value and default else "")
 
 
-def _turn(renderer):
-    """A lock of the renderer: threads that share it draw one after the other. A forked process has its own."""
-    return renderer.__dict__.setdefault(f"_turn{os.getpid()}", threading.Lock())
+def turn(shared):
+    """A lock of an object: threads that share it use it one after the other. A forked process has its own."""
+    return shared.__dict__.setdefault(f"_turn{os.getpid()}", threading.Lock())
 
 
 def render(scene, layers, camera=None, frame=None, size=None, renderer=None, keep=None, **options):
@@ -42,8 +42,8 @@ def render(scene, layers, camera=None, frame=None, size=None, renderer=None, kee
     bottom, with the values of the file that `dgtk render` writes: `depth` float64, z in the camera frame in the scene's
     units, +inf where there is nothing; `objects` uint32 ids, 0 where there is nothing; Documentation/Formats/layers.md
     has type, unit and frame of each. `boxes` and `amodal` are what their JSON says; `calibration` is a dict of `K`, `R`,
-    `t` (x_camera = R x_world + t; x right, y down, z forward), `viewport` and the thesis's matrices; `points` a dict of
-    arrays and tracks; `ldi` a dict of `count`, `rgba`, `depth` and `splat`; `pov` a string. All are the caller's.
+    `t` (x_camera = R x_world + t; x right, y down, z forward; not of an orthographic camera), `viewport` and the
+    thesis's matrices; `points` a dict of arrays and tracks; `ldi` a dict of `count`, `rgba`, `depth` and `splat`; `pov` a string. All are the caller's.
 
     Raises ValueError for a wrong request and RuntimeError for what the machine cannot do (no OpenGL, no memory), one
     line each. Other threads run meanwhile, and may render. Works in forked processes, too.
@@ -56,7 +56,7 @@ def render(scene, layers, camera=None, frame=None, size=None, renderer=None, kee
             _check.fail(name, "a dgtkRenderer" + (" or a name" if name == "renderer" else ""), given)
     names = _check.names("layers", layers)
     renderer = keep or renderer or dgtkRenderer()
-    with _turn(renderer):
+    with turn(renderer):
         renderer.SetScene(scene)
         renderer.SetCamera(scene.GetCameraName(0) if camera is None else _check.text("camera", camera))
         renderer.SetFrame(scene.GetFirstFrame() if frame is None else _check.integer("frame", frame))

@@ -44,9 +44,9 @@ def sample(scene, number, seed=None, folder=None):
 def random(seed, sample, path, draw=0):
     """A uniform random number in [0, 1): a function of its arguments alone, on every machine.
 
-    seed: from 0 to 2**53 - 1. sample: a sample's number, from 0 on. path: what the number is for, any text. draw: from
-    0 on, where one thing needs several numbers. A value `{"uniform": [0, 1]}` of object `cup` at key `scale` of a scene
-    is `random(seed, sample, "objects/cup/scale")`.
+    seed: from 0 to 2**53 - 1. sample: a sample's number, from 0 to 2**31 - 1. path: what the number is for, any text but an
+    empty one. draw: from 0 to 2**31 - 1, where one thing needs several numbers. A value `{"uniform": [0, 1]}` of object
+    `cup` at key `scale` of a scene is `random(seed, sample, "objects/cup/scale")`.
 
     Returns a float. Raises ValueError for arguments out of these ranges.
     """

@@ -2,6 +2,7 @@
 """Scenes of files and of descriptions."""
 import json
 import math
+import os
 
 import numpy
 
@@ -9,6 +10,10 @@ from . import _check
 from .dgtkPipeline import dgtkScene
 
 _DEEPEST = 32
+
+
+def _folder(scene_):
+    return os.fsdecode(scene_.GetFolder())  # VTK has bytes for what is no UTF-8
 
 
 class Scene(dgtkScene):
@@ -36,7 +41,7 @@ class Scene(dgtkScene):
     @property
     def folder(self):
         """Where the relative paths of the description start: an absolute path."""
-        return self.GetFolder()
+        return _folder(self)
 
     def description(self):
         """The scene as a dict, as in a .json file: what `scene()` takes.
@@ -84,7 +89,7 @@ def scene(description, folder=None, like=None):
     if like is not None and not isinstance(like, dgtkScene):
         _check.fail("like", "a scene", like)
     if folder is None:
-        folder = (like.GetFolder() if like else "") or "."
+        folder = (_folder(like) if like else "") or "."
     text = json.dumps(_plain(description, ""), allow_nan=False)
     made = Scene()
     if not made.LoadTextLike(text, _check.absolute("folder", folder), like):

@@ -7,7 +7,7 @@ import vtkmodules.vtkRenderingCore as vtkcore
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from . import _check
-from ._render import render
+from ._render import render, turn
 from .dgtkFromVTK import dgtkSnapshot
 
 _HOLDERS = ("renderer", "ren_win", "render_window", "window")  # PyVista, vedo, Mayavi's scenes and figures
@@ -20,8 +20,9 @@ class Snapshot(dgtkSnapshot):
 
     def save(self, path):
         """Writes the snapshot as a .json scene, with its models as OBJ and their textures in a folder `models` beside it."""
-        if not self.Save(_check.path("path", path)):
-            _check.raise_error(self)
+        with turn(self):
+            if not self.Save(_check.path("path", path)):
+                _check.raise_error(self)
 
 
 def _renderer_of_window(window):
@@ -91,10 +92,11 @@ class Truth(dict):
 
 
 def _cells(shot):
-    cells = shot.TraceCells()
-    if cells is None:
-        _check.raise_error(shot)
-    return vtk_to_numpy(cells)
+    with turn(shot):
+        cells = shot.TraceCells()
+        if cells is None:
+            _check.raise_error(shot)
+        return vtk_to_numpy(cells)
 
 
 def _is_snapshot(view, size, unsupported):
@@ -113,10 +115,10 @@ def truth(view, layers, size=None, unsupported="refuse", **options):
 
     layers: a name or a list of names of render(), and "cells": for each pixel the cell of the input of its actor's mapper
     (int64, -1 nothing; of composite data counted through its blocks, of glyphs the point that they stand at). Object ids are
-    1, 2, ... in the order of the view's visible actors, assemblies flattened. view: as in snapshot(), or a Snapshot. size and
-    unsupported as in snapshot(), and not beside a Snapshot; options as in render(), and not where cells are all that is
-    asked for. Returns a Truth: a dict of outputs, height x width, rows from the top. Raises ValueError for what cannot be
-    honoured, with its name.
+    1, 2, ... in the order of the view's visible actors that have triangles, assemblies flattened. view: as in snapshot(), or
+    a Snapshot. size and unsupported as in snapshot(), and not beside a Snapshot; options as in render(), and not where cells
+    are all that is asked for. Returns a Truth: a dict of outputs, height x width, rows from the top. Raises ValueError for
+    what cannot be honoured, with its name.
     """
     _check.names("layers", layers)
     names = [layers] if isinstance(layers, str) else list(layers)
@@ -142,10 +144,11 @@ def correspond(first, second):
     for shot in (first, second):
         if not isinstance(shot, dgtkSnapshot):
             raise ValueError(f"expected two snapshots, found {type(shot).__name__}")
-    if not first.Correspond(second):
-        _check.raise_error(first)
     shape = (first.GetHeight(), first.GetWidth())
-    return vtk_to_numpy(first.GetPositions()).reshape(shape + (2,)), vtk_to_numpy(first.GetClasses()).reshape(shape)
+    with turn(first):
+        if not first.Correspond(second):
+            _check.raise_error(first)
+        return vtk_to_numpy(first.GetPositions()).reshape(shape + (2,)), vtk_to_numpy(first.GetClasses()).reshape(shape)
 
 
 def visible_cells(view, size=None, unsupported="refuse"):
@@ -154,6 +157,7 @@ def visible_cells(view, size=None, unsupported="refuse"):
     view, size and unsupported as in truth().
     """
     shot = view if _is_snapshot(view, size, unsupported) else snapshot(view, size, unsupported)
-    if not shot.CountCells():
-        _check.raise_error(shot)
-    return [vtk_to_numpy(shot.CountPixels(i)) for i in range(shot.GetNumberOfProps())]
+    with turn(shot):
+        if not shot.CountCells():
+            _check.raise_error(shot)
+        return [vtk_to_numpy(shot.CountPixels(i)) for i in range(shot.GetNumberOfProps())]
