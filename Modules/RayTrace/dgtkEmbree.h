@@ -16,7 +16,8 @@ namespace dgtk
     row(SetSceneBuildQuality) row(CommitScene) row(NewBuffer) row(GetBufferData) row(ReleaseBuffer) row(NewGeometry)  \
       row(SetGeometryBuffer) row(SetNewGeometryBuffer) row(SetGeometryUserData) row(SetGeometryInstancedScene)        \
         row(SetGeometryTransform) row(CommitGeometry) row(AttachGeometry) row(AttachGeometryByID) row(DetachGeometry) \
-          row(ReleaseGeometry) row(Intersect1) row(Intersect16) row(Occluded16) row(PointQuery)
+          row(EnableGeometry) row(DisableGeometry) row(ReleaseGeometry) row(Intersect1) row(Intersect16)              \
+            row(Occluded16) row(PointQuery)
 
 struct EmbreeCalls
 {

@@ -15,10 +15,17 @@ constexpr double pointSlack = 1e-9;
 constexpr double coarseError = 1.0 / 16;
 
 /// Where single precision cannot tell.
-Hit firstAround(const RayScene& scene, const ExactRay& ray, const Hit& target)
+Hit firstAround(const RayScene& scene, const ExactRay& ray, const Hit& target, bool coarse)
 {
   std::vector<RayHit> all;
-  collectHits(scene, ray, true, all);
+  if (coarse)
+  {
+    scene.collectExactly(ray, false, all);
+  }
+  else
+  {
+    collectHits(scene, ray, true, all);
+  }
   const auto first = std::find_if(all.begin(), all.end(), [&](const RayHit& hit) { return hit.hit != target; });
   return first == all.end() ? Hit{} : first->hit;
 }
@@ -40,7 +47,7 @@ Hit nearestOnRay(const RayScene& scene, const ExactRay& ray, const Hit& target, 
   {
     traceRays(scene, &ray, 1, context);
   }
-  return coarse || context.marginal != 0 ? firstAround(scene, ray, target) : context.best[0];
+  return coarse || context.marginal != 0 ? firstAround(scene, ray, target, coarse) : context.best[0];
 }
 
 OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View& view)
@@ -103,11 +110,12 @@ void OccluderTracer::trace(
   std::fill(this->Context.best, this->Context.best + lanes, Hit{});
   this->Context.skip = targets;
   this->Context.marginal = this->Coarse ? active : 0;
-  traceRays(*this->Scene, this->Rays, active, this->Context);
+  traceRays(*this->Scene, this->Rays, this->Coarse ? 0 : active, this->Context);
   for (std::size_t i = 0; i < count; ++i)
   {
-    found[i] = (this->Context.marginal >> i & 1U) != 0 ? firstAround(*this->Scene, this->Rays[i], targets[i])
-                                                       : this->Context.best[i];
+    found[i] = (this->Context.marginal >> i & 1U) != 0
+                 ? firstAround(*this->Scene, this->Rays[i], targets[i], this->Coarse)
+                 : this->Context.best[i];
   }
 }
 

@@ -10,7 +10,7 @@ namespace dgtk
 {
 
 /// Whether single precision is too coarse for the pixels of a view: its error is above 1/16 of one, as in an image
-/// 30,000 pixels wide. Rays are looked around at once then.
+/// 30,000 pixels wide. Rays are followed in double precision then.
 bool isCoarse(const RayScene& scene, const View& view);
 
 /// The first surface on a ray that is not `target`; object 0 when there is none. `coarse`: see isCoarse().

@@ -107,10 +107,20 @@ public:
         rays[i] = rayOf(view, pixels[first + i]);
         candidates[i].clear();
       }
-      collectCandidates(scene, rays, many, isCoherent(view), candidates);
+      if (!coarse)
+      {
+        collectCandidates(scene, rays, many, isCoherent(view), candidates);
+      }
       for (std::size_t i = 0; i < many; ++i)
       {
-        settleHits(scene, rays[i], coarse, triangles ? &*triangles : nullptr, candidates[i], found);
+        if (coarse)
+        {
+          scene.collectExactly(rays[i], false, found);
+        }
+        else
+        {
+          settleHits(scene, rays[i], false, triangles ? &*triangles : nullptr, candidates[i], found);
+        }
         hits[first + i].clear();
         for (const RayHit& hit : found)
         {

@@ -202,6 +202,26 @@ RayMesh::~RayMesh()
   }
 }
 
+const BoxTree& RayMesh::tree() const
+{
+  std::call_once(this->Once,
+    [this]
+    {
+      const WorkTime build(WorkStage::Build);
+      std::vector<Eigen::AlignedBox3d> boxes(this->model->triangles.size());
+      for (std::size_t i = 0; i < boxes.size(); ++i)
+      {
+        const auto& triangle = this->model->triangles[i];
+        for (int k = 0; k < 3 && hasArea(*this, triangle); ++k)
+        {
+          boxes[i].extend(this->geometry->positions[triangle[k]]);
+        }
+      }
+      this->Tree = BoxTree(boxes);
+    });
+  return this->Tree;
+}
+
 RayDevice::RayDevice()
   : Handle(embree().NewDevice(nullptr))
 {

@@ -2,6 +2,7 @@
 #ifndef dgtkRayMesh_h
 #define dgtkRayMesh_h
 
+#include "dgtkBoxTree.h"
 #include "dgtkEmbree.h"
 #include "dgtkSceneState.h"
 
@@ -22,6 +23,8 @@ class RayDevice;
 struct RayMesh
 {
   ~RayMesh();
+  /// Of the boxes of the triangles that have an area, by triangle of the model, object frame. Thread-safe.
+  const BoxTree& tree() const;
 
   std::shared_ptr<RayDevice> device;
   std::shared_ptr<const Geometry> geometry;
@@ -34,6 +37,10 @@ struct RayMesh
   std::vector<std::uint32_t> firstTriangle; ///< of the model, by Embree geometry id
   std::vector<std::uint8_t> cutOut;         ///< whether a texture may cut holes, by Embree geometry id
   std::vector<float> inverseEdge; ///< 1 / longest edge by triangle of the model, units of the vertices; 0 without area
+
+private:
+  mutable std::once_flag Once;
+  mutable BoxTree Tree; ///< made when somebody asks for it
 };
 
 /// What makes meshes different.

@@ -14,6 +14,18 @@
 namespace dgtk
 {
 
+namespace
+{
+/// Whether Embree can invert the matrix of an instance in single precision, and intersect triangles of such sizes.
+bool fitsSingle(const Eigen::Matrix3d& linear, double reach, double sizes, double radius)
+{
+  const double determinant = std::abs(linear.determinant());
+  const double volume = sizes * radius * radius;
+  return determinant > 1e-35 && determinant < 1e35 && reach < 1e17 && (volume == 0 || volume > 1e-30) && volume < 1e36;
+}
+
+} // namespace
+
 RayScene::RayScene(std::shared_ptr<RayDevice> device, bool bare)
   : Device(std::move(device))
   , Bare(bare)
@@ -59,6 +71,8 @@ void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& came
   }
   this->Instances.resize(this->State->instances.size());
   this->Reach = 0;
+  this->Fits = true;
+  this->Exact = std::make_unique<ExactTree>();
   if (newState)
   {
     const std::vector<std::shared_ptr<const RayMesh>> meshes = this->Device->meshes(this->State->instances, this->Bare);
@@ -71,6 +85,7 @@ void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& came
   {
     this->placeInstance(i);
     this->Reach = std::max(this->Reach, this->Instances[i].reach);
+    this->Fits = this->Fits && (!this->Instances[i].mesh || this->Instances[i].fits);
   }
   embree().CommitScene(this->Scene);
   this->Device->check();
@@ -91,6 +106,7 @@ void RayScene::setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& 
     {
       placed.geometry = embree().NewGeometry(this->Device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
       embree().AttachGeometryByID(this->Scene, placed.geometry, unsigned(index));
+      placed.fits = true;
     }
     embree().SetGeometryInstancedScene(placed.geometry, mesh->scene);
   }
@@ -110,6 +126,19 @@ void RayScene::placeInstance(std::size_t index)
   const Eigen::Matrix3d linear =
     withoutRoundings<Eigen::Matrix3d>(placed.mesh->baked ? this->Pose.rotation : placed.camera_from_object.linear);
   const Eigen::Vector3d translation = placed.camera_from_object * placed.mesh->centre;
+  const Eigen::Matrix3d inverse = linear.inverse();
+  const double radius = placed.mesh->radius;
+  placed.reach = translation.norm() + linear.norm() * radius;
+  const bool fits = fitsSingle(linear, placed.reach, (inverse * translation).norm() + radius, radius);
+  if (fits != placed.fits)
+  {
+    (fits ? embree().EnableGeometry : embree().DisableGeometry)(placed.geometry);
+    placed.fits = fits;
+  }
+  if (!fits)
+  {
+    return;
+  }
   float matrix[12];
   for (int i = 0; i < 12; ++i)
   {
@@ -117,13 +146,11 @@ void RayScene::placeInstance(std::size_t index)
   }
   embree().SetGeometryTransform(placed.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
   embree().CommitGeometry(placed.geometry);
-  const Eigen::Matrix3d inverse = linear.inverse();
   for (int i = 0; i < 9; ++i)
   {
     placed.mesh_from_camera[i] = float(inverse(i / 3, i % 3));
   }
   placed.sizes = float((inverse * translation).norm()) + placed.mesh->radius;
-  placed.reach = translation.norm() + linear.norm() * placed.mesh->radius;
 }
 
 TriangleFrom RayScene::triangleFrom(const Eigen::Vector3d& origin, const Hit& hit) const
@@ -221,6 +248,10 @@ void RayScene::addFans(const ExactRay& ray, std::vector<Hit>& hits) const
 
 double RayScene::errorInPixels(const View& view) const
 {
+  if (!this->Fits)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
   const CameraModel& model = *view.model;
   double finest = std::numeric_limits<double>::infinity(); // pixel at the farthest point
   for (const double part :
@@ -274,22 +305,6 @@ RTCRayHit makeQuery(const ExactRay& ray)
 
 namespace
 {
-
-/// Sorts by t, then each group of equally near surfaces by (object, triangle).
-void sortHits(std::vector<RayHit>& hits)
-{
-  const auto lower = [](const RayHit& a, const RayHit& b)
-  { return a.hit.object != b.hit.object ? a.hit.object < b.hit.object : a.hit.triangle < b.hit.triangle; };
-  std::sort(
-    hits.begin(), hits.end(), [&](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : lower(a, b); });
-  for (auto first = hits.begin(); first != hits.end();)
-  {
-    const double limit = first->t + sameDistance * std::abs(first->t);
-    const auto last = std::find_if(first, hits.end(), [&](const RayHit& h) { return h.t > limit; });
-    std::sort(first, last, lower);
-    first = last;
-  }
-}
 
 void trace(const RayScene& scene, const ExactRay& ray, std::vector<Hit>& found)
 {

@@ -8,11 +8,13 @@
 
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace dgtk
 {
 
+struct RayHit;
 class SeenTriangles;
 
 /// A scene state in the frame of one camera: instances are placed relative to the camera in double precision before
@@ -24,6 +26,7 @@ public:
   {
     std::shared_ptr<const RayMesh> mesh; ///< null: nothing to hit
     RTCGeometry geometry = nullptr;
+    bool fits = true; ///< into single precision's range; Embree does not know it otherwise
     Affine3 camera_from_object;
     float mesh_from_camera[9]; ///< linear part, row by row
     float sizes = 0;           ///< largest coordinates that take part in single precision, units of the mesh
@@ -44,8 +47,10 @@ public:
   const Placed& placed(std::size_t instance) const { return this->Instances[instance]; }
   /// Largest `reach` of all instances.
   double reach() const { return this->Reach; }
+  /// Whether Embree knows all instances.
+  bool fits() const { return this->Fits; }
   /// Pixels: a bound of the error of single precision in the middle of an image (of a lens, where its middle row is
-  /// finest), at distances of about the scene's size.
+  /// finest), at distances of about the scene's size. Infinite where instances do not fit.
   double errorInPixels(const View& view) const;
   /// Surfaces whose single-precision t differ by less are compared exactly.
   float slack(float t) const { return float(2 * rayPrecision) * (t + float(this->Reach)); }
@@ -65,6 +70,9 @@ public:
   /// them are added: around a corner there may be more than rays beside this one meet.
   void addFans(const ExactRay& ray, std::vector<Hit>& hits) const;
 
+  /// All surfaces along a ray in exact order, without single precision; for `nearest` at least the first.
+  void collectExactly(const ExactRay& ray, bool nearest, std::vector<RayHit>& hits) const;
+
   TriangleFrom triangleFrom(const Eigen::Vector3d& origin, const Hit& hit) const;
 
 private:
@@ -80,6 +88,15 @@ private:
   Rigid3 Pose;
   std::vector<Placed> Instances;
   double Reach = 0;
+  bool Fits = true;
+  /// Of the instances' boxes in the camera frame.
+  struct ExactTree
+  {
+    std::once_flag once;
+    BoxTree boxes;
+  };
+  const BoxTree& exactTree() const;
+  std::unique_ptr<ExactTree> Exact = std::make_unique<ExactTree>(); ///< made when somebody asks for it
 };
 
 /// Triangles of a scene as seen from the points where rays start, those met last: mostly rays side by side start at one
@@ -127,6 +144,9 @@ struct RayHit
   double t = 0;
   Hit hit;
 };
+
+/// By t, then each group of equally near surfaces by (object, triangle).
+void sortHits(std::vector<RayHit>& hits);
 
 /// All surfaces along a ray in exact order. `nearby`: looks also beside the ray, for surfaces that single precision
 /// misses by a rounding; otherwise only when some surface is marginal.

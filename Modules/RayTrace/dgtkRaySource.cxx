@@ -21,6 +21,8 @@ namespace
 {
 constexpr int bandRows = 8; ///< rows that are traced as one job
 constexpr int side = PacketTracer::side;
+/// Pixels: above this error of single precision, as that of a telescope, neighbours do not tell what a ray misses.
+constexpr double coarsestTraced = 1.0 / 4;
 constexpr std::size_t partsOfJob = 16; ///< parts of a picture of many instants
 
 /// What is left of sources that are gone: one is often made for a single picture after another of its size.
@@ -76,6 +78,11 @@ public:
       this->trace<TraceMode::Bare>(hits);
       return;
     }
+    if (this->Scene.errorInPixels(this->TheView) > coarsestTraced)
+    {
+      this->traceExactly(hits);
+      return;
+    }
     if (this->Marks.nearness.empty())
     {
       this->Marks.nearness = this->Spare->nearness.take(hits.hits.size());
@@ -120,6 +127,22 @@ private:
           {
             std::copy_n(&around.at(rect.x, y), rect.width, &hits.at(rect.x, y));
           }
+        }
+      });
+  }
+
+  void traceExactly(VisibilityBuffer& hits)
+  {
+    this->Pool.parallelFor(hits.rect.height,
+      [&](int row)
+      {
+        const WorkTime time(WorkStage::Trace);
+        const int y = hits.rect.y + row;
+        std::vector<RayHit> found;
+        for (int x = hits.rect.x; x < hits.rect.x + hits.rect.width; ++x)
+        {
+          this->Scene.collectExactly(rayOf(this->TheView, { x + 0.5, y + 0.5 }), true, found);
+          hits.at(x, y) = found.empty() ? Hit{} : found.front().hit;
         }
       });
   }

@@ -15,7 +15,8 @@ namespace dgtk
 /// The engine "ray": primary rays traced in packets of 16 by Embree, decided in double precision wherever single
 /// precision cannot be sure: near an edge, at the near and far plane, and where surfaces coincide (nearest within a
 /// relative 1e-9: the lowest object, then triangle). A ray exactly through an edge that triangles share meets one of
-/// them. `pool` shares the work and must outlive the engine. Any rectangle inside the image may be rendered.
+/// them. Views for which single precision is too coarse (telescopes), and lengths beyond it, are traced in double
+/// precision alone. `pool` shares the work and must outlive the engine. Any rectangle inside the image may be rendered.
 /// near and far bound the ray's parameter t, which is the depth for linear cameras. `coherent`: Embree bounds the rays
 /// of a packet together, which takes half the time; a referee bounds each ray by itself. Throws MachineError when
 /// Embree cannot work (no memory).

@@ -6,6 +6,7 @@
 #include "dgtkSurfaceRows.h"
 #include "dgtkWorkTime.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -79,6 +80,10 @@ public:
   unsigned int blocked(const LightPath* paths, std::size_t count) const override
   {
     const WorkTime time(WorkStage::Trace);
+    if (!this->Scene.fits())
+    {
+      return this->blockedExactly(paths, count);
+    }
     ShadowContext context{};
     rtcInitIntersectContext(&context.context);
     // What Embree does with coherent packets is for rays that start at one point.
@@ -117,6 +122,24 @@ public:
   }
 
 private:
+  unsigned int blockedExactly(const LightPath* paths, std::size_t count) const
+  {
+    unsigned int bits = 0;
+    std::vector<RayHit> found;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->Scene.collectExactly({ paths[i].origin, paths[i].direction, 0, paths[i].length }, false, found);
+      const bool any = std::any_of(found.begin(), found.end(),
+        [&](const RayHit& hit)
+        {
+          const std::size_t object = hit.hit.object - 1;
+          return !this->Clear[object] && !isTranslucent(this->Scene.state().instances[object], hit.hit.triangle);
+        });
+      bits |= unsigned(any) << i;
+    }
+    return bits;
+  }
+
   RayScene Scene;
   std::vector<bool> Clear; ///< by instance
   bool Filtered = false;

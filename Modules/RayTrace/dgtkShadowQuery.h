@@ -24,7 +24,8 @@ struct LightPath
   double length = std::numeric_limits<double>::infinity();
 };
 
-/// Asks what stands in the light of a scene at one instant. In single precision, which shadows need no more than.
+/// Asks what stands in the light of a scene at one instant. In single precision, which shadows need no more than,
+/// but where lengths are beyond it.
 /// Thread-safe.
 class DGTKRAYTRACE_EXPORT ShadowQuery
 {
