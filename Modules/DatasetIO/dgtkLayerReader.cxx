@@ -27,7 +27,7 @@ InputFile::InputFile(const std::string& path)
   if (!S_ISREG(info.st_mode))
   {
     ::close(this->Descriptor);
-    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
+    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a pipe or device");
   }
   this->Size = static_cast<std::uint64_t>(info.st_size);
 }

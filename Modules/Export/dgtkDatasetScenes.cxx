@@ -79,7 +79,7 @@ void DatasetScenes::requireAlike() const
     }
     if (one.knowsMetres() != other->knowsMetres() || (one.knowsMetres() && one.metres() != other->metres()))
     {
-      throw UsageError("unit_metres: the scenes " + both + " have units of other lengths");
+      throw UsageError("the scenes " + both + " have units of other lengths, which one export of all cannot say");
     }
     for (const std::string& camera : other->cameras())
     {

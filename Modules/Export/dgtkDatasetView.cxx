@@ -22,11 +22,12 @@ namespace dgtk
 
 namespace
 {
-/// Of which formats of a layer values are taken: the exact ones first.
-const std::vector<std::string>& usualExtensions()
+/// Of which formats of a layer values are taken: the exact ones first. A .png of depths is a picture for people.
+const std::vector<std::string>& usualExtensions(Meaning meaning)
 {
   static const std::vector<std::string> all{ "npy", "dgd", "exr", "pfm", "flo", "png", "ppm", "json", "txt" };
-  return all;
+  static const std::vector<std::string> ofDepths{ "npy", "dgd", "exr", "pfm" };
+  return meaning == Meaning::Depth || meaning == Meaning::Distance ? ofDepths : all;
 }
 
 bool isOneOf(const std::string& word, const std::vector<std::string>& words)
@@ -257,11 +258,19 @@ std::uint32_t DatasetView::largestObject() const
   return largest;
 }
 
+Meaning DatasetView::meaningOf(const std::string& layer) const
+{
+  const std::vector<LayerRecord>& all = this->TheManifest.layers;
+  const auto found =
+    std::find_if(all.begin(), all.end(), [&](const LayerRecord& one) { return one.spec.name == layer; });
+  return found == all.end() ? Meaning::Unknown : found->spec.meaning;
+}
+
 std::string DatasetView::file(const DatasetShot& shot, const std::string& layer,
   const std::vector<std::string>& extensions, const std::string& folder) const
 {
   const std::vector<std::uint32_t> files = this->Files->ofShot(static_cast<std::uint32_t>(shot.index), layer);
-  for (const std::string& extension : extensions.empty() ? usualExtensions() : extensions)
+  for (const std::string& extension : extensions.empty() ? usualExtensions(this->meaningOf(layer)) : extensions)
   {
     for (const std::uint32_t number : files)
     {

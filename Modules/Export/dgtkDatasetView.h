@@ -107,8 +107,11 @@ public:
 
   /// Whether some shot has a file of the layer.
   bool has(const std::string& layer) const;
-  /// The file of a layer, relative to the dataset; the first of these extensions that there is (of any: npy before
-  /// others). "" for none. For layers with several folders (correspondence) the one whose folder is named.
+  /// What the values of a layer are; Unknown for one that there is not.
+  Meaning meaningOf(const std::string& layer) const;
+  /// The file of a layer, relative to the dataset; the first of these extensions that there is (none named: of any that
+  /// holds its values, npy before others; of depths a .png is a picture alone). "" for none. For layers with several
+  /// folders (correspondence) the one whose folder is named.
   std::string file(const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {},
     const std::string& folder = {}) const;
   std::string pathOf(const std::string& file) const { return this->Folder + '/' + file; }

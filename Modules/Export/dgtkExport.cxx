@@ -26,14 +26,16 @@ std::vector<std::string> scenesApart(const ExportRequest& request)
   return scenes;
 }
 
-ExportCallbacks sceneCallbacks(const ExportCallbacks& callbacks, std::size_t scene, std::size_t scenes)
+ExportCallbacks sceneCallbacks(const ExportCallbacks& callbacks, const ScenePlace& place)
 {
   ExportCallbacks own = callbacks;
-  own.progress = [callbacks, scene, scenes](const ExportProgress& state)
+  own.progress = [callbacks, place](const ExportProgress& state)
   {
     if (callbacks.progress) // of scenes; each counts as many as it has
     {
-      callbacks.progress({ scene * state.total + state.done, scenes * state.total });
+      const std::size_t before = place.scene * state.total;
+      const std::size_t kept = std::min(place.keptScenes * state.total + place.keptItems, before);
+      callbacks.progress({ before + state.done, place.scenes * state.total, kept + state.kept });
     }
   };
   return own;
@@ -64,7 +66,9 @@ ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& 
   ExportResult all;
   for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)
   {
-    addResult(ExportRun(sceneExport(request, scenes[i]), sceneCallbacks(callbacks, i, scenes.size())).execute(), all);
+    addResult(ExportRun(sceneExport(request, scenes[i]), sceneCallbacks(callbacks, { i, scenes.size(), 0, all.kept }))
+                .execute(),
+      all);
   }
   return all;
 }

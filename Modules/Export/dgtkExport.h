@@ -33,6 +33,7 @@ struct ExportProgress
 {
   std::size_t done = 0;
   std::size_t total = 0;
+  std::size_t kept = 0; ///< of those done, the items taken over from an interrupted run
 };
 
 /// May be called from any thread, one at a time.

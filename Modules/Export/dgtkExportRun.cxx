@@ -264,13 +264,14 @@ bool holds(const Journal& journal, const ExportNotes& notes, std::size_t item)
 
 bool ExportRun::isKept(std::size_t item) const { return holds(*this->Log, *this->Notes, item); }
 
-void ExportRun::advance()
+void ExportRun::advance(bool kept)
 {
   const std::lock_guard<std::mutex> guard(this->ProgressMutex);
   ++this->Done;
+  this->Kept += std::size_t(kept);
   if (this->Callbacks.progress)
   {
-    this->Callbacks.progress({ this->Done, this->Total });
+    this->Callbacks.progress({ this->Done, this->Total, this->Kept });
   }
 }
 
@@ -278,8 +279,8 @@ void ExportRun::writeItems(const ItemRange& range)
 {
   const int threads = exported::threads().of(this->Request.options);
   ThreadPool pool(threads > 0 ? threads : machineThreads());
+  const std::size_t before = this->Kept;
   std::atomic<bool> failed{ false };
-  std::atomic<std::size_t> kept{ 0 };
   pool.parallelFor(static_cast<int>(range.end - range.first),
     [&](int i)
     {
@@ -290,23 +291,20 @@ void ExportRun::writeItems(const ItemRange& range)
       }
       try
       {
-        if (this->isKept(item))
-        {
-          ++kept;
-        }
-        else
+        const bool kept = this->isKept(item);
+        if (!kept)
         {
           this->write(item);
         }
+        this->advance(kept);
       }
       catch (...)
       {
         failed = true;
         throw;
       }
-      this->advance();
     });
-  this->Result.kept = kept;
+  this->Result.kept = this->Kept - before;
 }
 
 void ExportRun::write(std::size_t index)

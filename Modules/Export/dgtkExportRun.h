@@ -61,7 +61,7 @@ private:
   ExportItem item(std::size_t index) const;
   std::size_t all() const { return this->Items + this->Plan.documents.size(); }
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
-  void advance();
+  void advance(bool kept = false);
   void discard(bool withFolder);
 
   ExportRequest Request;
@@ -77,6 +77,7 @@ private:
   std::unique_ptr<ExportNotes> Notes;
   std::mutex ProgressMutex;
   std::size_t Done = 0;
+  std::size_t Kept = 0; ///< of those done
   ExportResult Result;
 };
 
@@ -84,8 +85,17 @@ private:
 ExportRequest sceneExport(const ExportRequest& request, const std::string& scene);
 /// Of a format whose exports of many scenes are one each: the scenes' names; else none.
 std::vector<std::string> scenesApart(const ExportRequest& request);
+/// Where one of several scenes stands among them.
+struct ScenePlace
+{
+  std::size_t scene = 0;
+  std::size_t scenes = 0;
+  std::size_t keptScenes = 0; ///< of those before it, that were there as a whole
+  std::size_t keptItems = 0;  ///< of the others before it
+};
+
 /// Of one of several scenes, whose progress is that of all.
-ExportCallbacks sceneCallbacks(const ExportCallbacks& callbacks, std::size_t scene, std::size_t scenes);
+ExportCallbacks sceneCallbacks(const ExportCallbacks& callbacks, const ScenePlace& place);
 /// Adds what one export, or block, came to; `interrupted` is the last one's.
 void addResult(const ExportResult& one, ExportResult& all);
 

@@ -117,6 +117,17 @@ std::size_t filesIn(const std::string& folder)
   return files;
 }
 
+/// Of the blocks of a share.
+std::size_t itemsOf(const RunParts& run, const RunShard& shard)
+{
+  std::size_t items = 0;
+  for (std::size_t block = shard.index; block < run.blocks(); block += shard.count)
+  {
+    items += blockOf(run, block).end - blockOf(run, block).first;
+  }
+  return items;
+}
+
 /// Calls work(block) for the blocks of a share, until one is interrupted.
 ExportResult forBlocks(const RunParts& run, const RunShard& shard, const std::string& folder,
   const std::function<ExportResult(std::size_t block)>& work)
@@ -162,6 +173,8 @@ ExportResult shardOfScenes(const ExportRequest& request, const std::vector<std::
   requireRoomForParts(request.folder);
   const RunParts run = partsOf(request, scenes);
   beginParts(request.folder, run, shard.count);
+  ScenePlace place;
+  place.scenes = itemsOf(run, shard);
   return forBlocks(run, shard, request.folder,
     [&](std::size_t block)
     {
@@ -170,10 +183,17 @@ ExportResult shardOfScenes(const ExportRequest& request, const std::vector<std::
       {
         ExportRequest one = sceneExport(request, scenes[i]);
         one.resume = true;
-        if (!isDone(scenes[i], true))
+        if (isDone(scenes[i], true))
         {
-          addResult(ExportRun(one, sceneCallbacks(callbacks, i, scenes.size())).execute(), all);
+          ++place.keptScenes;
         }
+        else
+        {
+          const ExportResult result = ExportRun(one, sceneCallbacks(callbacks, place)).execute();
+          place.keptItems += result.kept;
+          addResult(result, all);
+        }
+        ++place.scene;
       }
       return all;
     });
@@ -197,12 +217,7 @@ ExportResult shardOfItems(const ExportRequest& request, const RunShard& shard, c
   run.requestHash = whole.hash();
   run.items = whole.items();
   beginParts(request.folder, run, shard.count);
-  std::size_t items = 0;
-  for (std::size_t block = shard.index; block < run.blocks(); block += shard.count)
-  {
-    items += blockOf(run, block).end - blockOf(run, block).first;
-  }
-  whole.count(items);
+  whole.count(itemsOf(run, shard));
   return forBlocks(run, shard, request.folder,
     [&](std::size_t block) { return whole.executeBlock(request.folder + '/' + partName(block), blockOf(run, block)); });
 }

@@ -31,7 +31,9 @@ std::string povCamera(const View& view, const PovRows& rows, const std::optional
   const auto linear = view.model->linear();
   if (!linear)
   {
-    throw UsageError("camera " + quoted(view.name) + " (" + view.model->name() + ") cannot be written for POV-Ray");
+    const std::string model = view.model->name();
+    throw UsageError("camera " + quoted(view.name) + " (" + model + (model == "pinhole" ? " with distortion" : "") +
+                     ") cannot be written for POV-Ray");
   }
   const double width = view.model->width();
   const double top = rows.first;

@@ -45,10 +45,11 @@ class Names(Case):
 
     def test_a_scene_and_its_dataset(self):
         self.put(b"mod\xe8le.obj", MESH)
-        document = json.dumps({"objects": [{"model": "modle.obj"}], "cameras": [CAMERA]}).replace("modle", "mod\uefe8le")
+        document = json.dumps({"objects": [{"model": "modle.obj", "class": "caf\uefe9"}],
+                               "cameras": [{**CAMERA, "name": "c\uefe9"}]}).replace("modle", "mod\uefe8le")
         scene = self.put(b"sc\xe8ne.json", document)
         out = os.path.join(self.home, b"donn\xe9es")
-        self.run_dgtk("render", scene, "-o", out, "--layers", "color,depth,objects", "--quiet")
+        self.run_dgtk("render", scene, "-o", out, "--layers", "color,depth,objects,boxes", "--quiet")
         self.run_dgtk("verify", out)
         for words in (("verify", out), ("info", out), ("info", scene), ("compare", out, out)):
             json.loads(self.run_dgtk(*words, "--json").stdout)

@@ -172,6 +172,11 @@ class Pov(Case):
         self.refused("convert", self.path("none.json"), out, status=3, says="none.json")
         self.refused("convert", scene, self.path("no", "x.pov"), status=4, says="x.pov")
         self.refused("convert", self.write("c.json", '{"objects": []}'), out, status=3, says="camera")
+        for model, called, distortion in (("pinhole", "pinhole with distortion", [-0.2, 0.05, 0, 0]), ("fisheye", "fisheye", [0, 0, 0, 0])):
+            camera = {"name": "lens", "model": model, "width": 64, "height": 48, "K": [[60, 0, 32], [0, 60, 24], [0, 0, 1]],
+                      "eye": [0, 0, 5], "lookAt": [0, 0, 0], "distortion": distortion}
+            lens = self.write("lens.json", json.dumps({"objects": [], "cameras": [camera]}))
+            self.refused("convert", lens, out, status=2, says=f"camera 'lens' ({called}) cannot be written for POV-Ray")
         self.assertFalse(os.path.exists(out))
 
 

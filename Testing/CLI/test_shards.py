@@ -62,6 +62,20 @@ class Shards(Case):
         self.assert_same_files(whole, self.path("parts"))
         self.assertEqual(os.path.exists(self.path("parts", ".dgtk-parts")), False)
 
+    def test_what_is_of_another_run(self):
+        """A share replaces nothing: it says what may be done."""
+        options = ("render", DEMO, "-o", self.path("run"), "--size", "32x24", "--quiet", "--layers")
+        self.dgtk(*options, "depth", "--shard", "0/8")
+        told = self.refused(*options, "objects", "--shard", "0/8", status=2,
+                            says=": holds an unfinished run of another request, in parts; remove its .dgtk-parts, or name another folder")
+        self.assertNotIn("--replace", told)
+        shutil.rmtree(self.path("run", ".dgtk-parts"))
+        self.dgtk(*options, "objects", "--shard", "0/1")
+        self.dgtk("merge", self.path("run"))
+        self.refused(*options, "depth", "--shard", "0/8", status=2, says="of another request; without --shard, --replace removes it")
+        self.refused(*options, "depth", status=2, says="of another request; --replace removes it, or name another folder")
+        self.dgtk(*options, "depth", "--replace")
+
     def test_a_folder_that_another_process_has_just_made(self):
         """As it is between two steps of another share, or after that one was killed there."""
         for scene, name, counted in ((DEMO, "one", "6 pictures"), (self.scenes(2), "many", "2 scenes")):

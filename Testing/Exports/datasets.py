@@ -8,6 +8,7 @@ import hashlib
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -187,6 +188,11 @@ class ExportCase(Case):
         if verify:
             self.referee(dataset, folder)
         return folder, record
+
+    def rates(self, *export):
+        """What `dgtk export` says of pictures a second, line by line."""
+        said = self.dgtk("export", *export, environment={"DGTK_PROGRESS": "0.01"}).stderr
+        return [float(rate) for rate in re.findall(r"(?m)^\d+/\d+ pictures, ([\d.]+)/s, ", said)]
 
     def referee(self, dataset, folder, status=0):
         """The rows of `dgtk verify --export`."""

@@ -123,6 +123,15 @@ class Frame(datasets.ExportCase):
                 file.write(whole.replace(old, new))
             self.assertIn("export.json", self.dgtk("verify", dataset, "--export", folder, status=1).stderr)
 
+    def test_names_of_a_camera(self):
+        """Are files, all or none."""
+        dataset = self.render(datasets.walk(self.path("scene")))
+        folder, record = self.export(dataset, "coco")
+        record["names"][1]["name"] = "no file"
+        self.written({os.path.join(folder, "export.json"): datasets.sealed(record)})
+        [row] = [one for one in self.referee(dataset, folder, 1)["residuals"] if one["layer"] == "record"]
+        self.assertEqual((row["bad"], row["worst"]["value"]), (1, "some names are no files (Kamera 1)"))
+
     def test_killed_twenty_times_and_resumed(self):
         scene = datasets.walk(self.path("scene"), frames=60, empty=False)
         dataset = self.render(scene)
@@ -161,6 +170,7 @@ class Frame(datasets.ExportCase):
             process.wait()
         for share in ("1/3", "0/3", "1/3"):
             subprocess.run([*command, "-o", part, "--shard", share], check=True)
+        self.assertEqual(set(self.rates(*command[2:-1], "-o", part, "--shard", "1/3")), {0}, "it was all there")
         self.refused("merge", part, status=1, says=("blocks are missing", "--array=2"))
         self.assertFalse(os.path.exists(os.path.join(part, "export.json")))
         subprocess.run([*command, "-o", part, "--shard", "2/3"], check=True)
@@ -171,8 +181,11 @@ class Frame(datasets.ExportCase):
             file.write(b"!")
         report = json.loads(self.dgtk("merge", part, "--json", status=1).stdout)
         self.assertEqual((report["missing"], report["array"]), ([4, 6], {"3": "0-1"}))
-        done = self.refused("export", dataset, "--format", "yolo", "-o", part, "--shard", "0/3", status=2, says=("another request",))
-        self.assertIn(part, done)
+        done = self.refused("export", dataset, "--format", "yolo", "-o", part, "--shard", "0/3", status=2,
+                            says=f"{part}: holds an unfinished run of another request, in parts; remove its .dgtk-parts, or name another folder")
+        self.assertNotIn("--replace", done)
+        for option in ("--resume", "--replace"):
+            self.refused(*command[1:], "-o", part, option, status=2, says=".dgtk-parts: parts of a run wait to be merged")
         for share in ("0/3", "1/3"):
             subprocess.run([*command, "-o", part, "--shard", share], check=True)
         self.dgtk("merge", part)

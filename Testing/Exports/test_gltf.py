@@ -151,6 +151,19 @@ class Gltf(datasets.ExportCase):
         self.assertLess(largest, 1e-3)
         print(f"pixels are {largest:.1e} off")
 
+    def test_names_that_are_not_utf8(self):
+        """As the page on datasets writes them."""
+        def rename(scene):
+            scene["cameras"][0]["name"] = "caf\uefe9"
+            scene["objects"][1].update(name="a\uefe9", **{"class": "b\uefe9"})
+            scene["objects"][2]["name"] = "a\uefea"
+
+        _, _, asset, record = self.exported(self.changed("scene", rename), "--frames", "0")
+        self.assertEqual([asset.json["cameras"][0]["name"], *sorted(asset.nodes("camera"))], ["caf\uefe9", "caf\uefe9", "right.eye"])
+        self.assertEqual(sorted(asset.nodes("mesh")), ["a\uefe9", "a\uefea", "back wall", "block, kleiner & schräg"])
+        self.assertEqual(asset.json["nodes"][asset.nodes("mesh")["a\uefe9"]]["extras"]["class"], "b\uefe9")
+        self.assertEqual({one["camera"] for one in record["names"]}, {"caf\uefe9", "right.eye"})
+
     def test_objects_are_where_they_are(self):
         dataset, _, asset, _ = self.exported(datasets.stereo(self.path("scene")))
         poses = {(one["frame"], one["id"]): np.array(one["matrix"]) for one in load_json(os.path.join(dataset, "poses.json"))["poses"]}

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 import datasets
-from datasets import cameras_of, layer_of, main, read_png  # noqa: F401
+from datasets import cameras_of, layer_of, load_json, main, read_png  # noqa: F401
 
 LEFT, RIGHT = "left eye", "right.eye"
 LAYERS = "color,depth,objects,classes,distance,normal,objectcoords,flow_forward,flow_backward,disparity"
@@ -94,6 +94,18 @@ class BlenderProc(datasets.ExportCase):
         folder, record = self.export(many, "hdf5")
         self.assertEqual(sorted(one["name"] for one in record["names"]), ["cam_0/0.hdf5", "cam_1/0.hdf5", "cam_2/0.hdf5"])
         self.assertEqual(len(self.frame(os.path.join(folder, "cam_1", "0.hdf5"))), 6)
+
+    def test_a_pair_beside_another_camera(self):
+        scene = datasets.stereo(self.path("scene"), 1)
+        document = load_json(scene)
+        document["cameras"].append({**document["cameras"][0], "name": "away", "eye": [1, 1, 4]})
+        with open(scene, "w", encoding="utf-8") as file:
+            json.dump(document, file)
+        dataset = self.render(scene, "color,depth,objects,classes")
+        folder, record = self.export(dataset, "hdf5")
+        self.assertEqual(sorted(one["name"] for one in record["names"]), ["away/0.hdf5", "left_eye/0.hdf5_0", "left_eye/0.hdf5_1"])
+        for number, name in enumerate(sorted(os.listdir(folder))):
+            self.assertEqual(os.path.isdir(os.path.join(folder, name)), number in (0, 2), name)
 
     def test_large_pictures_have_several_chunks(self):
         dataset = self.render(datasets.walk(self.path("scene"), frames=2), "color,depth,objects,classes", "--size", "611x403")

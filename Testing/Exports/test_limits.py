@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What formats cannot say is refused from where it begins: of one small dataset copies are changed a little, and a little less."""
+import hashlib
 import json
 import os
 import pickle
@@ -9,10 +10,11 @@ import h5py
 import numpy as np
 
 import datasets
-from datasets import load_json, main, read_png
+from datasets import layer_of, load_json, main, read_png
 from test_kitti import labels
 
 FORMATS = "nerf-synthetic,middlebury,kitti-odometry,kitti-object,kitti-depth,kitti2015,colmap,transforms,voc,tum,tapvid,hdf5"
+DEPTHS = ("bop", "colmap-dense", "hdf5", "kitti-depth", "mcap", "mvsnet", "rosbag", "sintel", "transforms", "tum")
 PAIR = ("--cameras", "left,right")
 
 
@@ -136,6 +138,35 @@ class Limits(datasets.ExportCase):
         self.assertIn("DontCare_2", kinds)
         self.assertNotIn("DontCare", kinds)
         self.assertIn("layer type", self.planted(copy, folder, name, lambda text: text.replace(b"DontCare_2", b"DontCare")))
+
+    def test_a_picture_of_depth_is_no_depth(self):
+        scene = datasets.street(self.path("scene"), width=24, height=18)
+        layers = ("depth_noisy", "--for", ",".join(DEPTHS), "--depth-noisy-format", "png", "--depth-format")
+        shown = self.render(scene, *layers, "png")
+        for form in DEPTHS:
+            with self.subTest(form):
+                self.nothing(form, shown, (f"{form}: camera 'cam L' has no file of layer depth at frame 0", "--depth-format npy"))
+        both = self.render(scene, *layers, "png,npy")
+        self.nothing("tum", both, "--depth-noisy-format npy", "--depth", "depth_noisy")
+        for form in DEPTHS:
+            self.export(both, form)
+        with h5py.File(os.path.join(self.export(both, "hdf5")[0], "0.hdf5"), "r") as file:
+            depth = layer_of(both, "depth", "cam L", 0)
+            self.assertTrue(np.array_equal(file["depth_0"][()], np.where(np.isfinite(depth), depth, 1e10).astype(np.float32)))
+        # of a layer that is no depth a .png holds values; an export of these is not one of depths
+        path = os.path.join(shown, "manifest.json")
+        with open(path, encoding="utf-8") as file:
+            manifest = file.read()
+        document = json.loads(manifest)
+        next(layer for layer in document["layers"] if layer["name"] == "depth")["meaning"] = "mask"
+        self.write(path, json.dumps(document))
+        folder, record = self.export(shown, "tum", "--unit-metres", "1")
+        self.write(path, manifest)
+        record["dataset_manifest"] = hashlib.sha256(manifest.encode()).hexdigest()
+        request = [record["version"], "tum", record["dataset_manifest"], *(f"{key}={value}" for key, value in record["request"].items())]
+        record["request_hash"] = hashlib.sha256("\n".join(request).encode()).hexdigest()
+        self.written({os.path.join(folder, "export.json"): datasets.sealed(record)})
+        self.assertIn("has no file of layer depth", self.dgtk("verify", shown, "--export", folder, status=1).stderr)
 
     def test_a_twin_has_width_and_height(self):
         _, record = self.export(self.dataset, "tum", "--undistort", "--cameras", "lens")

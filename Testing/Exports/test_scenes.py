@@ -63,8 +63,17 @@ class Scenes(datasets.ExportCase):
 
     def test_units_that_differ_are_refused(self):
         self.changed("s1/manifest.json", lambda manifest: manifest.update(metres_per_unit=2))
-        self.refused("export", self.path("all"), "--format", "coco", "-o", self.path("no"), status=2, says=("'s0' and 's1'", "units of other lengths"))
+        self.refused("export", self.path("all"), "--format", "coco", "-o", self.path("no"), status=2,
+                     says="dgtk: the scenes 's0' and 's1' have units of other lengths, which one export of all cannot say")
         self.assertFalse(os.path.exists(self.path("no")))
+
+    def test_each_scene_has_its_own_rate(self):
+        for number in range(3):
+            scene = load_json(self.path("scenes", f"s{number}.json"))
+            scene.update(fps=10 * 2**number, keyFrames=[5, 6])
+            self.write(f"scenes/s{number}.json", json.dumps(scene))
+        self.dgtk("render", self.path("scenes"), "-o", self.path("all"), "--for", "imagefolder", "--quiet", "--replace")
+        self.export("imagefolder")
 
     def test_no_scene_is_begun_before_all_are_looked_at(self):
         def skew(document):

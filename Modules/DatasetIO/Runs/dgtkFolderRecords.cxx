@@ -177,7 +177,7 @@ FolderRecords readFolderRecords(const Folder& folder, const std::string& documen
     {
       readDocument(folder.pathOf(document), document, records, visit);
     }
-    if (document == manifestName && holdsParts(folder.path()))
+    if (holdsParts(folder.path()))
     {
       records.foreign = std::string(partsName) + ": parts of a run wait to be merged";
     }

@@ -159,9 +159,10 @@ void beginParts(const std::string& path, const RunParts& run, std::size_t worker
     folder.makeParents(runFile());
     writeBeside(folder, runFile(), text);
   }
-  if (runText(readParts(path)) != text)
+  if (const RunParts there = readParts(path); runText(there) != text)
   {
-    throw FolderError(path, FolderContents::UnfinishedOther, ", in parts");
+    throw UsageError(path + ": " + describe(FolderContents::UnfinishedOther) + ", in parts; remove " +
+                     (there.scenes.empty() ? std::string("its ") + partsName : "it") + ", or name another folder");
   }
   const std::string note = std::string(partsName) + '/' + workersStem + std::to_string(workers);
   if (folder.look(note) == EntryKind::Nothing)

@@ -81,6 +81,21 @@ TEST_F(RunPartsTest, AFileThatNoRunHasWrittenStays)
   EXPECT_FALSE(hasParts(this->path()));
 }
 
+TEST_F(RunPartsTest, PartsOfAnotherRunAreRefused)
+{
+  RunParts other = this->Run;
+  other.requestHash = Sha256::of("another request");
+  const auto refusal = [&] { return test::thrownBy<UsageError>([&] { beginParts(this->path(), other, 1); }); };
+  const std::string said = this->path() + ": holds an unfinished run of another request, in parts; remove ";
+  beginParts(this->path(), this->Run, 1);
+  EXPECT_EQ(refusal(), said + "its .dgtk-parts, or name another folder");
+
+  std::filesystem::remove_all(this->path(".dgtk-parts"));
+  this->Run.scenes = { "one" }; // whose dataset stands beside the parts
+  beginParts(this->path(), this->Run, 1);
+  EXPECT_EQ(refusal(), said + "it, or name another folder");
+}
+
 TEST_F(RunPartsTest, ASceneOfAnotherVersionIsNotMerged)
 {
   this->Run.scenes = { "one", "two" };

@@ -3,6 +3,7 @@
 #include "dgtkJsonFile.h"
 #include "dgtkMasks.h"
 #include "dgtkUpright.h"
+#include "dgtkUtf8.h"
 #include "dgtkWideCanvas.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ public:
   /// Whose picture it is of.
   void place(const Json& camera, const Json& frame)
   {
-    this->Names.equal(camera == this->Owner.camera() && frame == this->Owner.frame(),
+    this->Names.equal(camera == utf8FromBytes(this->Owner.camera()) && frame == this->Owner.frame(),
       [&]
       {
         return Offender{ this->File, -1, -1, "camera " + camera.dump() + " frame " + frame.dump(),
@@ -152,7 +153,7 @@ private:
     { return "object " + std::to_string(id) + " '" + name + "' '" + kind + '\''; };
     const std::string found =
       text(this->Id, object.at("name").get<std::string>(), object.at("class").get<std::string>());
-    const std::string expected = text(++this->Number, instance.name, instance.className);
+    const std::string expected = text(++this->Number, utf8FromBytes(instance.name), utf8FromBytes(instance.className));
     this->Names.equal(found == expected, [&] { return Offender{ this->File, -1, -1, found, expected }; });
   }
 

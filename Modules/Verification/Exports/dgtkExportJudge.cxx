@@ -119,17 +119,13 @@ void ExportedFrom::addPart(const std::string& part)
 {
   const std::string folder = this->DatasetFolder + '/' + part;
   this->Objects[part] = readObjects(dgtk::Folder(folder).fileAt("objects.json"));
-  Manifest manifest = readManifestIn(folder,
+  this->Manifests[part] = readManifestIn(folder,
     [&](DatasetFile&& file)
     {
       file.path = part + file.path;
       file.camera = file.camera.empty() ? file.camera : part + file.camera;
       this->Files.add(file, this->shotOf(file.camera, file.frame));
     });
-  if (part == this->Parts[0])
-  {
-    this->TheManifest = std::move(manifest);
-  }
 }
 
 std::uint32_t ExportedFrom::shotOf(const std::string& camera, int frame) const
@@ -228,6 +224,17 @@ const std::vector<BoxRecord>& ExportedFrom::boxes(const std::string& camera, int
   return this->Boxes;
 }
 
+bool ExportedFrom::holdsDepths(const std::string& camera, const std::string& layer) const
+{
+  const std::vector<LayerRecord>& layers = this->manifestOf(camera).layers;
+  return std::any_of(layers.begin(), layers.end(),
+    [&](const LayerRecord& one)
+    {
+      const Meaning meaning = one.spec.meaning;
+      return one.spec.name == layer && (meaning == Meaning::Depth || meaning == Meaning::Distance);
+    });
+}
+
 std::string ExportedFrom::file(
   const std::string& camera, int frame, const std::string& layer, const std::vector<std::string>& extensions) const
 {
@@ -237,7 +244,9 @@ std::string ExportedFrom::file(
   {
     for (const std::uint32_t number : files)
     {
-      if (std::string path = this->Files.pathOf(number); extensionOf(path) == extension)
+      std::string path = this->Files.pathOf(number);
+      if (extensionOf(path) == extension &&
+          (!extensions.empty() || extension != "png" || !this->holdsDepths(camera, layer)))
       {
         return path;
       }

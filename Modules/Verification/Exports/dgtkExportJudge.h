@@ -39,7 +39,9 @@ public:
   const std::string& folder() const { return this->Folder; }
   const ExportRecord& record() const { return this->Record; }
   /// Of the first dataset, without its files.
-  const Manifest& manifest() const { return this->TheManifest; }
+  const Manifest& manifest() const { return this->Manifests.at(this->Parts[0]); }
+  /// Of a camera's dataset. Throws std::out_of_range for a camera of none.
+  const Manifest& manifestOf(const std::string& camera) const { return this->Manifests.at(this->partOf(camera)); }
   /// A file of the dataset; none that its manifest does not list.
   std::optional<DatasetFile> listed(const std::string& path) const;
   /// Those of a picture.
@@ -62,7 +64,8 @@ public:
   const ObjectRecord* object(const std::string& camera, std::uint32_t id) const;
   /// Records of the layer `boxes` of a picture; empty without the layer. Kept for the last picture only.
   const std::vector<BoxRecord>& boxes(const std::string& camera, int frame) const;
-  /// A layer's file of a picture, exact formats first; "" for none.
+  /// A layer's file of a picture, exact formats first; "" for none. Of depths a .png is a picture for people, no
+  /// values: it is found where it is asked for.
   std::string file(const std::string& camera, int frame, const std::string& layer,
     const std::vector<std::string>& extensions = {}) const;
   /// The same, read. Throws InputError without a file.
@@ -73,14 +76,15 @@ private:
   void addCameras(const std::string& part);
   void addPart(const std::string& part);
   std::uint32_t shotOf(const std::string& camera, int frame) const;
+  bool holdsDepths(const std::string& camera, const std::string& layer) const;
   DatasetFile fileAt(std::uint32_t number) const;
 
   std::string DatasetFolder;
   std::vector<std::string> Parts;
   std::string Folder;
   ExportRecord Record;
-  Manifest TheManifest;
-  std::vector<CameraRecord> Cameras; ///< by name and frame; a picture's place is its shot in the table of files
+  std::map<std::string, Manifest> Manifests; ///< by part
+  std::vector<CameraRecord> Cameras;         ///< by name and frame; a picture's place is its shot in the table of files
   FileTable Files;
   std::map<std::string, std::vector<ObjectRecord>> Objects; ///< by part
   std::vector<const ExportedName*> ByPlace;                 ///< sorted by camera and frame

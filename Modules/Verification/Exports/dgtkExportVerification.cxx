@@ -130,18 +130,21 @@ void checkRecord(ExportJudge& judge)
     request += '\n' + option + '=' + value;
   }
   holds("request_hash", record.requestHash == Sha256::of(request), record.requestHash, "that of dataset and request");
-  std::size_t paths = 0;
+  std::map<std::string, std::set<bool>> files; // by camera: whether a name is one
   for (const ExportedName& name : record.names)
   {
     holds(name.name, source.named(name.name) == &name, "a name twice", "each once");
     holds(name.name, source.camera(name.camera, name.frame) != nullptr, "no picture", "one of the dataset");
     const ExportedFile* file = source.exported(name.name);
-    paths += file != nullptr;
+    files[name.camera].insert(file != nullptr);
     holds(name.name,
       !file || file->file.camera.empty() || (file->file.camera == name.camera && file->file.frame == name.frame),
       "another picture", "that of the file");
   }
-  holds("names", paths == 0 || paths == record.names.size(), "some are no files", "files, all or none");
+  for (const auto& [camera, are] : files)
+  {
+    holds(camera, are.size() == 1, "some names are no files", "files, all or none");
+  }
   std::set<std::pair<std::string, std::string>> layers;
   for (const LayerRounding& one : record.layers)
   {

@@ -107,6 +107,10 @@ public:
     useJson(path,
       [&]
       {
+        if (!record.at("complete").get<bool>())
+        {
+          throw InputError(this->Folder, "holds an unfinished run: the same dgtk sample command begins it anew");
+        }
         std::int64_t number = record.at("first");
         for (const Json& sample : record.at("samples"))
         {
@@ -117,8 +121,7 @@ public:
           }
         }
         const std::int64_t end = record.at("last").get<std::int64_t>() + 1;
-        this->record(record.at("complete") ? number == end : number <= end, "samples to " + std::to_string(number - 1),
-          "to " + std::to_string(end - 1));
+        this->record(number == end, "samples to " + std::to_string(number - 1), "to " + std::to_string(end - 1));
         return 0;
       });
     Results results;

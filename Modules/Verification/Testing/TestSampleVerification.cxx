@@ -255,10 +255,7 @@ TEST(SampleVerification, TheRecordAgreesWithItselfAndItsFiles)
     EXPECT_EQ(report.firstBreach()->check, "record") << instead;
     EXPECT_EQ(report.firstBreach()->worst.file, "samples.json") << instead;
   }
-  EXPECT_TRUE(
-    bricks(0, R"("complete": true, "first": 0, "last": 0)", R"("complete": false, "first": 0, "last": 3)").passed());
-  EXPECT_FALSE(
-    bricks(0, R"("complete": true, "first": 0, "last": 0)", R"("complete": false, "first": 0, "last": -1)").passed());
+  EXPECT_THROW(bricks(0, R"("complete": true)", R"("complete": false)"), InputError);
   EXPECT_TRUE(bricks(0, R"("file": "000000.json")", R"("refused": { "why": "it fell" })").passed());
 }
 

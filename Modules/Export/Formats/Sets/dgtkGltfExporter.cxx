@@ -7,6 +7,7 @@
 #include "dgtkGltf.h"
 #include "dgtkPortableMath.h"
 #include "dgtkText.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +122,7 @@ public:
     }
     this->Buffer.describe(this->Asset, bufferName);
     this->File->finish();
-    this->Sink.write(sceneName, this->Asset.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+    this->Sink.write(sceneName, this->Asset.dump(1) + '\n');
   }
 
 private:
@@ -151,7 +152,7 @@ private:
     double far = 1000;
     for (const nlohmann::json& one : this->Scene.value("cameras", nlohmann::json::array()))
     {
-      const bool same = one.value("name", "") == camera;
+      const bool same = one.value("name", "") == utf8FromBytes(camera);
       const auto number = [&](const char* key, double usual)
       { return same && one.contains(key) && one[key].is_number() ? one[key].get<double>() : usual; };
       near = number("near", near);
@@ -186,9 +187,9 @@ private:
       Json node = gltf::placedNode(places.front());
       node.erase("scale");
       node["camera"] = this->Asset["cameras"].size();
-      this->Asset["cameras"].push_back(
-        { { "name", name }, { "type", "perspective" }, { "perspective", perspective }, { "extras", extras } });
-      gltf::animate(this->Animation, this->Buffer, this->addNode(name, node), times, places);
+      this->Asset["cameras"].push_back({ { "name", utf8FromBytes(name) }, { "type", "perspective" },
+        { "perspective", perspective }, { "extras", extras } });
+      gltf::animate(this->Animation, this->Buffer, this->addNode(utf8FromBytes(name), node), times, places);
     }
   }
 
@@ -247,9 +248,10 @@ private:
   {
     Json node = gltf::placedNode(places.places.front());
     node["mesh"] = this->meshOf(object, places.mirrored);
-    node["extras"] = { { "id", object.id }, { "class", object.objectClass }, { "visible_frames", places.visible },
-      { "deforming", object.deforming }, { "mirrored", places.mirrored } };
-    gltf::animate(this->Animation, this->Buffer, this->addNode(object.name, node), this->Times, places.places);
+    node["extras"] = { { "id", object.id }, { "class", utf8FromBytes(object.objectClass) },
+      { "visible_frames", places.visible }, { "deforming", object.deforming }, { "mirrored", places.mirrored } };
+    gltf::animate(
+      this->Animation, this->Buffer, this->addNode(utf8FromBytes(object.name), node), this->Times, places.places);
   }
 
   std::size_t meshOf(const ObjectRecord& object, bool mirrored)
@@ -262,7 +264,7 @@ private:
     const ModelPly model = readModelPly(Folder(this->Dataset.folder()).fileAt(object.geometryFile));
     Json mesh =
       gltf::meshOf(this->Buffer, model, mirrored, [&](const gltf::Look& look) { return this->materialOf(look); });
-    mesh["name"] = object.geometryFile;
+    mesh["name"] = utf8FromBytes(object.geometryFile);
     this->Asset["meshes"].push_back(mesh);
     return this->Meshes[{ object.geometryFile, mirrored }] = this->Asset["meshes"].size() - 1;
   }

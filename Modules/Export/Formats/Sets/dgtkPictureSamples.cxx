@@ -18,21 +18,9 @@ namespace dgtk::samples
 
 namespace
 {
-Meaning meaningOf(const DatasetView& dataset, const std::string& layer)
-{
-  for (const LayerRecord& one : dataset.manifest().layers)
-  {
-    if (one.spec.name == layer)
-    {
-      return one.spec.meaning != Meaning::Unknown ? one.spec.meaning : impliedMeaning(one.spec);
-    }
-  }
-  return Meaning::Unknown;
-}
-
 bool isPreview(const DatasetView& dataset, const DatasetFile& file)
 {
-  const Meaning meaning = meaningOf(dataset, file.layer);
+  const Meaning meaning = dataset.meaningOf(file.layer);
   return extensionOf(file.path) == "png" && (meaning == Meaning::Depth || meaning == Meaning::Distance);
 }
 
@@ -72,7 +60,7 @@ Member memberOf(
   const DatasetView& dataset, const DatasetFile& file, const std::string& stem, const OptionValues& options)
 {
   const std::string extension = extensionOf(file.path);
-  if (extension == "ppm" && meaningOf(dataset, file.layer) == Meaning::Id && hasShortIds(dataset))
+  if (extension == "ppm" && dataset.meaningOf(file.layer) == Meaning::Id && hasShortIds(dataset))
   {
     return { stem + ".png", file, Member::Form::Ids };
   }
@@ -200,7 +188,7 @@ std::string bytesOf(ExportSink& sink, const DatasetView& dataset, const Member& 
     return picture.bytes;
   }
   return member.form == Member::Form::Ids ? idPngOf(image)
-                                          : npyOf(image, meaningOf(dataset, member.file.layer) == Meaning::Id);
+                                          : npyOf(image, dataset.meaningOf(member.file.layer) == Meaning::Id);
 }
 
 Json sourcesOf(const std::vector<Member>& members)

@@ -362,7 +362,7 @@ void SampleDocuments::judge(
   const std::string boxes = source.file(camera, frame, "boxes", { "json" });
   const Json listed = boxes.empty() ? Json() : readJsonFile(source.dataset() + '/' + boxes).at("objects");
   this->Judge.holds("boxes", file, where, document.value("boxes", Json()) == listed, "others", boxes);
-  const double fps = source.manifest().fps;
+  const double fps = source.manifestOf(camera).fps;
   this->Judge.number("time", "s", file, where, document.value("seconds", 0.0), fps > 0 ? frame / fps : 0, 1e-12);
   const bool metric = document.count("metres_per_unit") > 0;
   this->Judge.exact("unit", "m", file, where, document.value("metres_per_unit", 0.0), metric ? metresOf(source) : 0);
