@@ -85,6 +85,7 @@ int main(int argc, char** argv)
       return 0;
     }
   }
+  dgtk::holdStandardStreams();
   dgtk::prepareHeap();
   dgtk::MainWindow::prepareApplication();
   QApplication application(argc, argv);

@@ -69,7 +69,7 @@ ExportResult exported(
   }
   catch (const FolderError& error)
   {
-    throw UsageError(error.what() + wayOut(error.contents()));
+    throw UsageError(error.what() + wayOut(error.contents(), shard.has_value()));
   }
 }
 
@@ -86,7 +86,7 @@ int exportRun(const Arguments& arguments)
   Progress progress(arguments.has("--quiet"));
   ExportCallbacks callbacks;
   callbacks.cancel = &catchInterrupts();
-  callbacks.progress = [&](const ExportProgress& state) { progress.update(state.done, state.total); };
+  callbacks.progress = [&](const ExportProgress& state) { progress.update(state.done, state.total, state.kept); };
   callbacks.message = [&](const std::string& line) { progress.message(line); };
   std::optional<RunShard> shard;
   if (arguments.has("--shard"))

@@ -28,7 +28,7 @@ Json infoOfModel(const std::string& path)
   info["format"] = model->format;
   info["triangles"] = model->declaredTriangles > 0 ? model->declaredTriangles : model->triangles.size();
   info["drawn_triangles"] = model->triangles.size();
-  info["vertices"] = model->sourceVertices;
+  info["vertices"] = model->fileVertices();
   info["parts"] = model->parts.size();
   info["materials"] = model->declaredMaterials;
   info["textures"] = Json::array();
@@ -111,6 +111,10 @@ Json infoOf(const Arguments& arguments)
 {
   const std::string& path = arguments.positional()[0];
   std::error_code code; // what cannot be asked is told when it is read
+  if (!std::filesystem::exists(path, code) && !code)
+  {
+    throw InputError(path, std::string("cannot be read: ") + std::strerror(ENOENT));
+  }
   const bool folder = std::filesystem::is_directory(path, code);
   const bool manifest = !folder && std::filesystem::path(path).filename() == "manifest.json";
   const bool scene = !folder && !manifest && (extensionOf(path) == "scene" || extensionOf(path) == "json");

@@ -72,15 +72,16 @@ std::string withOption(const std::string& line, const std::vector<const OptionRo
   return named == rows.end() ? line : optionWord(**named) + line.substr(name.size());
 }
 
-std::string wayOut(FolderContents contents)
+std::string wayOut(FolderContents contents, bool isShare)
 {
+  const std::string begin = isShare ? "; without --shard, " : "; ";
   switch (contents)
   {
     case FolderContents::Unfinished:
-      return "; --resume completes it, --replace starts over";
+      return begin + "--resume completes it, --replace starts over";
     case FolderContents::FinishedOther:
     case FolderContents::UnfinishedOther:
-      return "; --replace removes it, or name another folder";
+      return begin + "--replace removes it, or name another folder";
     default:
       return "";
   }

@@ -71,6 +71,10 @@ GeneratorRequest parseRenderRequest(const Arguments& arguments)
   if (arguments.has("--layers")) // otherwise the usual ones, as far as the scene's cameras can have them
   {
     request.layers = arguments.list("--layers");
+    if (request.layers.empty())
+    {
+      throw UsageError("--layers: expected names of layers, found ''");
+    }
   }
   request.cameras = arguments.list("--cameras");
   if (arguments.has("--frames"))
@@ -139,7 +143,7 @@ GeneratorResult generated(
   }
   catch (const FolderError& error)
   {
-    throw UsageError(error.what() + wayOut(error.contents()));
+    throw UsageError(error.what() + wayOut(error.contents(), shard.has_value()));
   }
 }
 

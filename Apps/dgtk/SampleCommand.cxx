@@ -77,7 +77,7 @@ int runSample(const Arguments& arguments)
   }
   if (result.interrupted)
   {
-    throw AgainError("interrupted; the same command with --replace begins anew");
+    throw AgainError("interrupted; the same command begins anew");
   }
   if (result.refused > 0 || result.leftOut > 0)
   {
@@ -96,7 +96,7 @@ Command sampleCommand()
       { "--samples", "A:B", "", "numbers of the samples, both included" },
       { "--seed", "N", "", "instead of the scene's seed" },
       { "--threads", "N", "", "threads that work (default: those of the machine)" },
-      { "--replace", "", "", "remove the samples of another run, or of an interrupted one, that the folder holds" },
+      { "--replace", "", "", "remove the samples of another run that the folder holds" },
       { "--quiet", "", "", "no progress and no messages" }, noCacheOption },
     &runSample };
 }

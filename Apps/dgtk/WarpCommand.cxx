@@ -251,7 +251,7 @@ void save(const std::string& path, const WarpedImage& image, const std::vector<s
   writer->finish();
 }
 
-/// Neither picture is the other one, or the image that is read.
+/// Both pictures are PNG, and neither is the other one, or the image that is read.
 void checkNames(const std::string& ldi, const std::string& picture, const std::string& mask)
 {
   namespace fs = std::filesystem;
@@ -263,6 +263,13 @@ void checkNames(const std::string& ldi, const std::string& picture, const std::s
   if (same(picture, ldi) || (!mask.empty() && (same(mask, ldi) || same(mask, picture))))
   {
     throw UsageError("the picture, its mask and the layered depth image need names of their own");
+  }
+  for (const std::string& name : { picture, mask })
+  {
+    if (!name.empty() && extensionOf(name) != "png")
+    {
+      throw UsageError(name + ": a picture is written as .png");
+    }
   }
 }
 

@@ -131,6 +131,7 @@ void dgtk::app::prepareGL(const std::string& backend, int threads)
 int main(int argc, char** argv)
 {
   processArguments = argv;
+  dgtk::holdStandardStreams();
   dgtk::prepareHeap();
   ::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit of `ulimit -f` is an error of writing, also in helpers
   try

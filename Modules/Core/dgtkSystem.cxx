@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <thread>
 
+#include <fcntl.h>
 #include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -22,6 +23,18 @@ namespace dgtk
 namespace fs = std::filesystem;
 
 int machineThreads(int most) { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most); }
+
+void holdStandardStreams()
+{
+  for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
+  {
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+    {
+      // The lowest number that is free is this one. Opened for the other direction, its use is an error as it was.
+      static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+    }
+  }
+}
 
 bool prepareHeap()
 {

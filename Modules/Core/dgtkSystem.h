@@ -25,6 +25,10 @@ DGTKCORE_EXPORT std::string programOnPath(const std::string& name);
 /// none, another allocator is in use, or memory is limited (`ulimit -v`, `-d`).
 DGTKCORE_EXPORT bool prepareHeap();
 
+/// For programs, once at their start: where standard input, output or error is closed, its number is taken, so that no
+/// file that is opened later has it and gets what was meant for the user. Writing to it fails as before.
+DGTKCORE_EXPORT void holdStandardStreams();
+
 /// A folder among the system's temporary ones, made when it is first asked for and gone with its owner.
 class DGTKCORE_EXPORT ScratchFolder
 {

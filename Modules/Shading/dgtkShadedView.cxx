@@ -16,8 +16,6 @@ namespace dgtk
 
 namespace
 {
-Float4 clamped(Float4 v) { return 1 - atLeast(1 - atLeast(v, 0), 0); }
-
 Float4 tintOf(const std::array<std::uint8_t, 4>& color)
 {
   const Float4 bytes = { float(color[0]), float(color[1]), float(color[2]), float(color[3]) };
@@ -342,6 +340,13 @@ void ShadedView::allHits(const std::vector<Eigen::Vector2d>& pixels, std::vector
   this->Query->allHits(this->TheView, pixels.data(), pixels.size(), hits);
 }
 
+/// Light as it is blended.
+Float4 ShadedView::blended(Float4 color) const
+{
+  const Float4 light = atLeast(color, 0);
+  return this->State->cutsAtWhite ? 1 - atLeast(1 - light, 0) : light;
+}
+
 /// Surfaces in order, nearest first, until one is opaque.
 void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const
 {
@@ -370,12 +375,12 @@ void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<Pixe
       [&](std::size_t, Float4 color)
       {
         const float opacity = std::min(std::max(color[3], 0.0F), 1.0F);
-        over += through * opacity * clamped(color); // as OpenGL blends what it draws
+        over += through * opacity * this->blended(color);
         through *= 1 - opacity;
       });
     if (!closed)
     {
-      over += through * clamped(this->skyAt(rays[std::size_t(pixel)]));
+      over += through * this->blended(this->skyAt(rays[std::size_t(pixel)]));
     }
     for (std::size_t c = 0; c < 3; ++c)
     {

@@ -110,6 +110,7 @@ private:
   void findShadows(const ShadedPoint* points, std::size_t count, LightLanes* lit) const;
   void seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const;
   Float4 skyAt(const PixelRay& ray) const;
+  Float4 blended(Float4 color) const;
   bool isOpaque(const Hit& hit) const
   {
     const ShadedMaterials& materials = *this->Objects[hit.object - 1].materials;

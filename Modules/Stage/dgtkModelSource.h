@@ -42,6 +42,8 @@ public:
   virtual ObjectLook lookOf(const SceneDescription& scene, const ObjectDescription& object) const = 0;
   /// Null for none.
   virtual std::shared_ptr<const EnvironmentState> environment(const SceneDescription& scene) const = 0;
+  /// Whether light above white is cut before it is blended, as OpenGL does.
+  virtual bool cutsAtWhite() const { return false; }
   /// Every file that was read for the scene, without repetition; none where that is not known.
   virtual std::vector<std::string> files() const { return {}; }
   /// Of the models, which live as long as it does. Not null.

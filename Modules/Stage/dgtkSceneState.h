@@ -95,6 +95,7 @@ struct SceneState
   Eigen::Vector3d background{ 0, 0, 0 };               ///< sRGB in [0, 1]
   std::shared_ptr<const EnvironmentState> environment; ///< null: there is none
   FogState fog;
+  bool cutsAtWhite = false; ///< light above it, before it is blended
 
   std::size_t objects() const { return this->instances.size() - this->copies; }
   /// The object's id of what a hit has as its object; 0 for 0.

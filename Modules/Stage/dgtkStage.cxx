@@ -25,13 +25,10 @@
 namespace dgtk
 {
 
-namespace
-{
-constexpr std::size_t keptStates = 4;
-} // namespace
-
 struct Stage::Impl
 {
+  static constexpr std::size_t keptStates = 4;
+
   Impl(SceneDescription scene, const WarningSink& warning)
     : Scene(std::move(scene))
   {
@@ -68,6 +65,7 @@ struct Stage::Impl
   std::vector<ObjectLook> Looks; ///< one an object
   std::unordered_map<std::string, std::uint32_t> ClassIds;
   std::shared_ptr<const EnvironmentState> Environment;
+  bool CutsAtWhite = false;
   std::vector<std::shared_ptr<const Model>> Models; ///< in the order of their first use
   std::vector<std::string> Files;
   std::optional<ObjectPoses> Poses;
@@ -91,6 +89,7 @@ void Stage::Impl::take(const ModelSource& models)
     this->Looks.push_back(models.lookOf(this->Scene, object));
   }
   this->Environment = models.environment(this->Scene);
+  this->CutsAtWhite = models.cutsAtWhite();
   this->Geometries = models.geometries();
   this->checkObjects();
   this->Poses.emplace(this->Scene);
@@ -141,6 +140,7 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame) const
   state->frame = frame;
   state->background = boundedAt(this->Scene.background, frame);
   state->environment = this->Environment;
+  state->cutsAtWhite = this->CutsAtWhite;
   const FogDescription& fog = this->Scene.fog;
   state->fog = { boundedAt(fog.color, frame), boundedAt(fog.density, frame), boundedAt(fog.start, frame) };
   state->lights = lightsAt(this->Scene, frame);
@@ -253,7 +253,7 @@ std::shared_ptr<const SceneState> Stage::at(double frame) const
   std::shared_ptr<const SceneState> state = this->Self->compute(frame);
   const std::lock_guard<std::mutex> lock(this->Self->Mutex);
   this->Self->Latest.push_back(state);
-  if (this->Self->Latest.size() > keptStates)
+  if (this->Self->Latest.size() > Impl::keptStates)
   {
     this->Self->Latest.pop_front();
   }

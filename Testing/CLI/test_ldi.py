@@ -340,6 +340,7 @@ class Warp(Case):
         out = ("-o", self.path("o.png"))
         self.refused("warp", self.ldi, *out, status=2, says="--to")
         self.refused("warp", self.ldi, "--to", "left", status=2, says="-o")
+        self.refused("warp", self.ldi, "--to", "left", "-o", self.path("a.jpg"), status=2, says="a.jpg: a picture is written as .png")
         self.refused("warp", self.ldi, "--to", "middle", *out, status=2, says="middle")
         self.refused("warp", self.ldi, "--to", "left@9", *out, status=2, says="frame 9")
         self.refused("warp", self.write("x.ldi", ""), "--to", "left", *out, status=2, says="DIR/CAMERA/ldi/FRAME.ldi")

@@ -233,7 +233,7 @@ class RollingShutters(Case):
                                  ["color", "--renderer", "povray"], ["pov"], ["depth", "--depth-format", "dgd"]):
             self.refused(*run, "--layers", layers, *options, status=2, says=("'eye' (pinhole) has a rolling shutter"))
         self.dgtk(*run, "--layers", "ldi", "--quiet")
-        self.refused("warp", self.path("out", "eye", "ldi", "000004.ldi"), "--to", "eye", "-o", self.path("warped"),
+        self.refused("warp", self.path("out", "eye", "ldi", "000004.ldi"), "--to", "eye", "-o", self.path("warped.png"),
                      status=2, says="rolling shutter")
         # Of layers that were not named, those that need one instant are left out, and said.
         for word, layers in (("usual", []), ("all", ["--layers", "all"])):

@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 
-from harness import Case, digests, main
+from harness import Case, digests, load_json, main
 
 SOURCE = os.environ["DGTK_SOURCE"]
 SCENE = {
@@ -115,6 +115,19 @@ class Sample(Case):
         self.refused("sample", scene, "-o", self.path("own"), "--samples", "0:1", status=2, says="--replace")
         self.dgtk("sample", scene, "-o", self.path("own"), "--samples", "0:1", "--replace", "--quiet")
         self.assertEqual(sorted(os.listdir(self.path("own"))), ["000000.json", "000001.json", "samples.json"])
+
+    def test_an_interrupted_run_is_begun_anew(self):
+        command = ("sample", self.scene(), "-o", self.path("own"), "--quiet", "--samples")
+        self.dgtk(*command, "0:3")
+        whole = digests(self.path("own"))
+        record = load_json(self.path("own/samples.json"))
+        self.write("own/samples.json", json.dumps({**record, "complete": False, "inputs": [], "samples": []}))
+        os.remove(self.path("own/000002.json"))
+        self.write("own/000001.json", "{")
+        self.assertIn("unfinished run", self.refused("verify", self.path("own"), status=3))
+        self.refused(*command, "0:4", status=2, says="samples of another run (--replace")
+        self.dgtk(*command, "0:3")
+        self.assertEqual(digests(self.path("own")), whole)
 
     def test_the_guide_s_example_is_sampled_and_rendered(self):
         with open(os.path.join(SOURCE, "Documentation/UserGuide/sampling.md"), encoding="utf-8") as file:

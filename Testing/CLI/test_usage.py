@@ -6,7 +6,7 @@ import re
 import subprocess
 import time
 
-from harness import DGTK, SCENES, SOURCE, Case, ended, main
+from harness import DGTK, SCENES, SOURCE, Case, digests, ended, main
 
 SCENE = os.path.join(SCENES, "demo.json")
 
@@ -48,14 +48,26 @@ class Usage(Case):
         self.refused("render", SCENE, "-o", self.path("x"), "--size", "0x10", status=2, says="--size width")
         self.refused("render", SCENE, "-o", self.path("x"), "--samples", "17", status=2, says="1 to 16")
         self.refused("render", SCENE, "-o", self.path("x"), "--layers", "depht", status=2, says="unknown layer 'depht'")
+        self.refused("render", SCENE, "-o", self.path("x"), "--layers", "", status=2, says="--layers: expected names of layers")
         self.refused("render", SCENE, "-o", self.path("x"), "--cameras", "nobody", status=2, says="no camera 'nobody'")
         self.refused("render", SCENE, "-o", self.path("x"), "--frames", "3:1", status=2, says="A <= B")
         self.refused("render", SCENE, "-o", self.path("x"), "--frames", "0:100000", status=2, says="the scene has frames")
         self.refused("render", SCENE, "-o", self.path("x"), "--gl", "metal", status=2, says="expected one of")
         self.refused("render", SCENE, "-o", self.path("x"), "--depth-format", "jpg", status=2, says="--depth-format: expected some of npy,")
         self.refused("convert", SCENE, self.path("x.obj"), status=2, says="expected a name in .scene, .json or .pov")
+        self.refused("info", self.path("nothing"), status=3, says="nothing: cannot be read: No such file or directory")
         self.refused("list", "nothing", status=2, says="expected one of readers")
         self.assertFalse(os.path.exists(self.path("x")))
+
+    def test_closed_streams_are_no_files(self):
+        """What is said of a run does not get into a file that took the place of standard error; what cannot be said is an error."""
+        render = ("render", SCENE, "-o", self.path("d"), "--layers", "depth,objects", "--size", "8x6", "--frames", "0")
+        self.dgtk(*render)
+        whole = digests(self.path("d"))
+        subprocess.run(["sh", "-c", 'exec "$@" <&- 2>&-', "sh", DGTK, *render], check=True, env={**os.environ, "DGTK_PROGRESS": "0.01"})
+        self.assertEqual(digests(self.path("d")), whole)
+        done = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", DGTK, "info", SCENE], stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (4, "dgtk: standard output cannot be written: Bad file descriptor\n"))
 
     def test_each_command_takes_its_number_of_arguments(self):
         for command, least, most in (("render", 1, 1), ("info", 1, 1), ("convert", 2, 2), ("verify", 1, 1), ("correspond", 1, 1),

@@ -30,7 +30,7 @@ std::string readFile(const std::string& path, std::uint64_t limit)
   }
   if (!S_ISREG(info.st_mode))
   {
-    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
+    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a pipe or device");
   }
   if (std::uint64_t(info.st_size) > limit)
   {

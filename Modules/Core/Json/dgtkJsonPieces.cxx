@@ -30,7 +30,7 @@ FileDescriptor opened(const std::string& path)
   }
   if (!S_ISREG(info.st_mode))
   {
-    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a device");
+    throw InputError(path, "cannot be read", "a file", S_ISDIR(info.st_mode) ? "a directory" : "a pipe or device");
   }
   return file;
 }

@@ -14,8 +14,10 @@
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 using namespace dgtk;
 using namespace dgtk::test;
@@ -69,6 +71,24 @@ int prepareAndLook()
   const std::vector<char> block(std::size_t(16) << 20);
   return hasLargePages(block.data() + block.size() / 2) != prepared ? 1 : prepared ? 0 : 2;
 }
+}
+
+TEST(System, ClosedStreamsAreNoFiles)
+{
+  const auto look = [](const fs::path& file)
+  {
+    for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
+    {
+      ::close(stream);
+    }
+    holdStandardStreams();
+    char byte = 0;
+    const bool isFree = ::open(file.c_str(), O_RDWR | O_CREAT, 0600) > STDERR_FILENO;
+    return isFree && ::read(STDIN_FILENO, &byte, 1) < 0 && ::write(STDOUT_FILENO, &byte, 1) < 0 &&
+           ::write(STDERR_FILENO, &byte, 1) < 0;
+  };
+  ScratchFolder folder;
+  EXPECT_EXIT(std::_Exit(look(fs::path(folder.path("a"))) ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 TEST(System, TheHeapHasLargePages)

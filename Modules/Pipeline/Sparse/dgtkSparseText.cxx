@@ -172,10 +172,11 @@ std::vector<Eigen::Vector2d> parsePoints(const std::string& text, const std::str
       {
         return;
       }
-      if ((values.size() != 2 && values.size() != 6) || std::isnan(values[0]) || std::isnan(values[1]))
+      const bool count = values.size() == 2 || values.size() == 6;
+      if (!count || std::isnan(values[0]) || std::isnan(values[1]))
       {
-        throw InputError(
-          name, number, "is not a point (expected two numbers, found " + std::to_string(values.size()) + ')');
+        throw InputError(name, number,
+          "is not a point (expected two numbers, found " + (count ? "nan" : std::to_string(values.size())) + ')');
       }
       points.emplace_back(values[0], values[1]);
     });

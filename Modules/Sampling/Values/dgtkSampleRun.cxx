@@ -38,19 +38,20 @@ bool isSampleName(const std::string& name)
          std::all_of(name.begin(), name.begin() + 6, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether the folder has a record of this program's, so that its samples may go.
-bool hasRecord(const Folder& folder)
+/// The folder's record when it is of this program's, so that its samples may go; null otherwise.
+Json recordIn(const Folder& folder)
 {
   if (folder.look(recordName) != EntryKind::File)
   {
-    return false;
+    return nullptr;
   }
-  const Json record = Json::parse(readFile(folder.fileAt(recordName)), nullptr, false);
-  return record.is_object() && record.contains("samples") && record.contains("scene_sha256");
+  Json record = Json::parse(readFile(folder.fileAt(recordName)), nullptr, false);
+  return record.is_object() && record.contains("samples") && record.contains("scene_sha256") ? record : Json();
 }
 
-/// Throws unless the folder is free, or may be made so.
-void clearFolder(const SampleRequest& request)
+/// Throws unless the folder is free, may be made so, or holds what an interrupted run of the same samples has left:
+/// `begun` is the record with which a run begins.
+void clearFolder(const SampleRequest& request, const Json& begun)
 {
   makeFolders(request.folder);
   const Folder folder(request.folder);
@@ -76,16 +77,21 @@ void clearFolder(const SampleRequest& request)
   {
     return;
   }
-  if (!hasRecord(folder))
+  const Json record = recordIn(folder);
+  if (record.is_null())
   {
     throw SampleFolderError(request.folder + " holds " +
                               dgtk::quoted(*std::min_element(samples.begin(), samples.end())) +
                               " but no record of samples",
       false);
   }
+  if (record == begun) // what was written is written again, the same
+  {
+    return;
+  }
   if (!request.replace)
   {
-    throw SampleFolderError(request.folder + " holds samples of another run, or of an interrupted one", true);
+    throw SampleFolderError(request.folder + " holds samples of another run", true);
   }
   std::sort(samples.begin(), samples.end()); // the record is last
   for (const std::string& name : samples)
@@ -138,14 +144,15 @@ public:
 
   SampleResult all()
   {
-    clearFolder(this->Request);
-    this->writeRecord(false);
+    const Json begun = this->recordOf(false);
+    clearFolder(this->Request, begun);
+    this->write(begun);
     ThreadPool(this->Request.threads)
       .parallelFor(static_cast<int>(this->Records.size()), [this](int i) { this->one(i); });
     this->Result.interrupted = this->isCancelled();
     if (!this->Result.interrupted)
     {
-      this->writeRecord(true);
+      this->write(this->recordOf(true));
     }
     return this->Result;
   }
@@ -199,7 +206,7 @@ private:
     }
   }
 
-  void writeRecord(bool whole) const
+  Json recordOf(bool whole) const
   {
     const RandomScene& scene = this->Source.scene();
     Json record{ { "version", 1 }, { "dgtk", DGTK_VERSION }, { "complete", whole },
@@ -207,6 +214,11 @@ private:
       { "seed", this->Source.seed() }, { "first", this->Request.first }, { "last", this->Request.last } };
     record["inputs"] = whole ? inputsOf(scene) : Json::array();
     record["samples"] = whole ? Json(this->Records) : Json::array();
+    return record;
+  }
+
+  void write(const Json& record) const
+  {
     writeFileDurably(FilePlace(this->Request.folder, recordName), record.dump(1) + '\n');
   }
 

@@ -24,7 +24,7 @@ struct SampleRequest
   int first = 0;
   int last = 0;                      ///< included, at most largestSample
   std::optional<std::uint64_t> seed; ///< instead of the scene's
-  bool replace = false;              ///< samples of another run, or of an interrupted one, go
+  bool replace = false;              ///< samples of another run go
   int threads = 1;
 };
 
@@ -58,7 +58,8 @@ private:
 };
 
 /// Writes FOLDER/<six digits>.json for each sample that is not refused, and FOLDER/samples.json last
-/// (Documentation/Formats/samples.md). The same bytes with any number of threads. Throws what Sampler throws, and
+/// (Documentation/Formats/samples.md). The same bytes with any number of threads, and where an interrupted run of the
+/// same samples was before. Throws what Sampler throws, and
 /// SampleFolderError before anything is written.
 DGTKSAMPLING_EXPORT SampleResult writeSamples(const SampleRequest& request, const SampleCallbacks& callbacks = {});
 

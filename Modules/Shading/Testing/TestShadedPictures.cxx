@@ -309,6 +309,21 @@ TEST(ShadedPictures, FootprintsOfLensesAreThoseOfTheirRays)
   EXPECT_LT(sum / double(straight.colors.rgb.size()), 0.5 * step); // differences instead of the derivative
 }
 
+TEST(ShadedPictures, LightAboveWhiteIsKeptBehindGlassAndOnIt)
+{
+  SceneBuilder scene = ground();
+  const auto glass = groundModel();
+  glass->materials[0].opacity = 0.25;
+  scene.add(glass, { Eigen::Matrix3d::Identity(), { 0, 0.5, 0 } });
+  const auto state = scene.state();
+  state->lights.push_back(lightAt(LightKind::Directional, { 0, 1, 0 }));
+  state->lights[0].intensity = 4;
+  const View view = fromAbove();
+  const Picture picture = draw(state, view);
+  EXPECT_EQ(picture.hits.at(80, 60).object, 2U);
+  EXPECT_NEAR(picture.at(80, 60), 4, 0.01 * step);
+}
+
 TEST(ShadedPictures, AreTheSameForAnyThreadsAndAnyPieces)
 {
   SceneBuilder scene = ground();
