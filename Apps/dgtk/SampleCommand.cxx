@@ -96,7 +96,7 @@ Command sampleCommand()
       { "--samples", "A:B", "", "numbers of the samples, both included" },
       { "--seed", "N", "", "instead of the scene's seed" },
       { "--threads", "N", "", "threads that work (default: those of the machine)" },
-      { "--replace", "", "", "remove the samples of another run that the folder holds" },
+      { "--replace", "", "", "remove the samples of an earlier run that the folder holds" },
       { "--quiet", "", "", "no progress and no messages" }, noCacheOption },
     &runSample };
 }

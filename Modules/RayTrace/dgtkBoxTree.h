@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,7 @@ public:
     int count = 0;
     const auto push = [&](double entry, std::uint32_t node)
     {
-      if (entry <= most)
+      if (entry <= most && entry < std::numeric_limits<double>::infinity())
       {
         open[count++] = { entry, node };
       }

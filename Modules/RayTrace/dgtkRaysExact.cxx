@@ -65,7 +65,10 @@ const BoxTree& RayScene::exactTree() const
         if (!own.isEmpty())
         {
           const Eigen::Vector3d centre = placed.camera_from_object * own.center();
-          const Eigen::Vector3d half = 0.5 * placed.camera_from_object.linear.cwiseAbs() * own.sizes();
+          const Affine3& place = placed.camera_from_object;
+          const double noise =
+            1e-14 * (place.translation.norm() + place.linear.norm() * (own.center().norm() + own.sizes().norm()));
+          const Eigen::Vector3d half = (0.5 * place.linear.cwiseAbs() * own.sizes()).array() + noise;
           boxes[i] = { centre - half, centre + half };
         }
       }

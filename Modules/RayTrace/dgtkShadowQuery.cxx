@@ -118,7 +118,8 @@ public:
 
   double precision(std::uint32_t object, double distance) const override
   {
-    return 2 * rayPrecision * (distance + this->Scene.placed(object - 1).reach);
+    constexpr double ofDoubles = 1e-12;
+    return (this->Scene.fits() ? 2 * rayPrecision : ofDoubles) * (distance + this->Scene.placed(object - 1).reach);
   }
 
 private:

@@ -14,7 +14,7 @@ HELP = {
         ("--samples A:B", "numbers of the samples, both included"),
         ("--seed N", "instead of the scene's seed"),
         ("--threads N", "threads that work (default: those of the machine)"),
-        ("--replace", "remove the samples of another run, or of an interrupted one, that the folder holds"),
+        ("--replace", "remove the samples of an earlier run that the folder holds"),
         ("--quiet", "no progress and no messages"),
         ("--no-cache", "read models anew, and keep none of them for other runs")]),
     "info": ("FILE", "Tells what a scene, a model or a dataset holds.", [

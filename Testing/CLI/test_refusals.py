@@ -100,7 +100,7 @@ class Machine(Case):
     def test_limited_file_size(self):
         """Files larger than 64 KiB fail, and leave nothing half-written."""
         words = ("--quiet", "--layers", "depth", "--frames", "0", "--size", "640x480")
-        self.assertIn("too large", self.limited("-f 64", "render", os.path.join(SCENES, "demo.json"), "-o", self.path("out"), *words, status=4))
+        self.assertIn("ulimit -f", self.limited("-f 64", "render", os.path.join(SCENES, "demo.json"), "-o", self.path("out"), *words, status=4))
         self.assertEqual([n for n in digests(self.path("out")) if n != ".dgtk-journal"], [])
 
     def many_cameras(self, count):

@@ -125,7 +125,7 @@ class Sample(Case):
         os.remove(self.path("own/000002.json"))
         self.write("own/000001.json", "{")
         self.assertIn("unfinished run", self.refused("verify", self.path("own"), status=3))
-        self.refused(*command, "0:4", status=2, says="samples of another run (--replace")
+        self.refused(*command, "0:4", status=2, says="holds samples already (--replace removes them)")
         self.dgtk(*command, "0:3")
         self.assertEqual(digests(self.path("own")), whole)
 

@@ -62,7 +62,7 @@ class Threads(unittest.TestCase):
         sys.setswitchinterval(1e-6)
         try:
             with ThreadPoolExecutor(4) as pool:
-                list(pool.map(ask, 100 * [0, 1, 2, 3]))
+                list(pool.map(ask, 50 * [0, 1, 2, 3]))
         finally:
             sys.setswitchinterval(interval)
 

@@ -87,8 +87,10 @@ TEST(System, ClosedStreamsAreNoFiles)
     return isFree && ::read(STDIN_FILENO, &byte, 1) < 0 && ::write(STDOUT_FILENO, &byte, 1) < 0 &&
            ::write(STDERR_FILENO, &byte, 1) < 0;
   };
-  ScratchFolder folder;
-  EXPECT_EXIT(std::_Exit(look(fs::path(folder.path("a"))) ? 0 : 1), testing::ExitedWithCode(0), "");
+  const TemporaryFolder folder;
+  const fs::path file(folder.path("a"));
+  GTEST_FLAG_SET(death_test_style, "fast"); // the folder is this process's
+  EXPECT_EXIT(std::_Exit(look(file) ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 TEST(System, TheHeapHasLargePages)

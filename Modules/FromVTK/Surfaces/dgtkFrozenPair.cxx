@@ -88,6 +88,11 @@ struct Surface
   Eigen::Vector2d place; ///< barycentric coordinates of the second and third corner
 };
 
+std::optional<Surface> placed(const std::optional<std::uint32_t>& triangle, const Eigen::Vector2d& place)
+{
+  return triangle ? std::optional(Surface{ *triangle, place }) : std::nullopt;
+}
+
 /// Which of some triangles has a point.
 class PlaceFinder
 {
@@ -139,8 +144,7 @@ public:
   {
     if (this->IsSame)
     {
-      const std::optional<std::uint32_t> there = triangleOf(this->Other, this->Number);
-      return there ? std::optional(Surface{ *there, place }) : std::nullopt;
+      return placed(triangleOf(this->Other, this->Number), place);
     }
     const Model& model = *this->Other.model;
     std::optional<Eigen::Vector3d> moved[3];
@@ -271,6 +275,7 @@ private:
           std::to_string(same->whole->triangles()) + " triangles, not " + std::to_string(actor.whole->triangles()));
       }
       this->ObjectOf.push_back(there ? std::uint32_t(same - this->To.actors.begin()) + 1 : 0);
+      this->HasSameCuts.push_back(there && same->whole->cuts == actor.whole->cuts);
     }
   }
 
@@ -292,7 +297,9 @@ private:
     if (!other.whole->copies && !actor.whole->copies)
     {
       const std::uint32_t number = numberOf(*actor.whole, point.triangle);
-      const std::optional<Surface> there = Polygon(*actor.whole, *other.whole, number).follow(point.place);
+      const std::optional<Surface> there = this->HasSameCuts[this->From.actorOf(hit)]
+                                             ? placed(triangleOf(*other.whole, number), point.place)
+                                             : Polygon(*actor.whole, *other.whole, number).follow(point.place);
       if (!there)
       {
         return {};
@@ -334,6 +341,7 @@ private:
   View ToView;
   std::vector<Hit> Hits;
   std::vector<std::uint32_t> ObjectOf; ///< in the other view, by actor; 0: it is not there
+  std::vector<bool> HasSameCuts;       ///< of polygons, by actor
   OtherView Other;
 };
 } // namespace

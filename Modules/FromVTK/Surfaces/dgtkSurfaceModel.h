@@ -24,6 +24,11 @@ struct PolygonCut
 {
   std::uint32_t first = 0;                             ///< number of its first triangle, of all of them
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< corners of the polygon
+
+  bool operator==(const PolygonCut& other) const
+  {
+    return this->first == other.first && this->triangles == other.triangles;
+  }
 };
 
 /// A model in memory, and where its triangles come from.

@@ -307,7 +307,10 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   }
   scene.warnings.insert(scene.warnings.end(), files->Collada.warnings.begin(), files->Collada.warnings.end());
   dgtk::import::convert(*found, format == "gltf", scene);
-  dgtk::import::restoreNames(scene);
+  if (format == "collada")
+  {
+    dgtk::import::restoreNames(scene);
+  }
   if (format == "off" && dgtk::import::facesHaveColors(contents(path)))
   {
     scene.warnings.emplace_back("colours of faces are not drawn");

@@ -21,11 +21,19 @@ std::size_t endOfMarkup(const std::string& xml, std::size_t at)
       return found == std::string::npos ? xml.size() : found + std::char_traits<char>::length(end);
     }
   }
+  const bool isType = xml.compare(at, 9, "<!DOCTYPE") == 0; // which may have markup in brackets
+  int open = 0;
   char quote = 0; // of the attribute that is open
   for (; at < xml.size(); ++at)
   {
     const char c = xml[at];
-    if (c == '>' && quote == 0)
+    if (isType && quote == 0 && xml.compare(at, 4, "<!--") == 0)
+    {
+      at = std::min(xml.find("-->", at), xml.size() - 1);
+      continue;
+    }
+    open += isType && quote == 0 ? int(c == '[') - int(c == ']') : 0;
+    if (c == '>' && quote == 0 && open <= 0)
     {
       return at + 1;
     }

@@ -18,6 +18,8 @@ public:
 
   std::string text() const { return this->Xml.substr(this->Begin, this->End - this->Begin); }
   bool isEnd() const { return this->Xml.compare(this->Begin, 2, "</") == 0; }
+  /// A tag that ends its element, too.
+  bool isEmpty() const { return this->End >= 2 && this->Xml.compare(this->End - 2, 2, "/>") == 0; }
   /// A tag of such an element.
   bool isOf(const std::string& element) const;
   /// Such an element begins.

@@ -35,6 +35,14 @@ ColladaSurvey::ColladaSurvey(const std::string& xml)
 
 void ColladaSurvey::lookAt(const Markup& markup)
 {
+  if (markup.isOf("extra") && !markup.isEmpty())
+  {
+    this->Extras += markup.isEnd() ? -1 : 1;
+  }
+  if (this->Extras > 0) // where anything may stand
+  {
+    return;
+  }
   if (markup.begins("node"))
   {
     this->lookAtNode(markup);
@@ -51,7 +59,10 @@ void ColladaSurvey::lookAt(const Markup& markup)
   {
     this->problem = "skewed nodes are not read: give them matrices";
   }
-  this->IsAnimation = markup.isOf("library_animations") ? !markup.isEnd() : this->IsAnimation;
+  if (markup.isOf("library_animations"))
+  {
+    this->IsAnimation = !markup.isEnd() && !markup.isEmpty();
+  }
   this->HasSkins = this->HasSkins || markup.begins("instance_controller");
   this->lookAtCoordinates(markup);
 }
@@ -67,7 +78,7 @@ void ColladaSurvey::lookAtCoordinates(const Markup& markup)
 {
   if (markup.isOf("diffuse"))
   {
-    this->IsDiffuse = !markup.isEnd();
+    this->IsDiffuse = !markup.isEnd() && !markup.isEmpty();
   }
   else if (markup.isEnd())
   {
@@ -103,8 +114,12 @@ void ColladaSurvey::lookAtCoordinates(const Markup& markup)
   }
   else if (markup.isOf("bind_vertex_input") && markup.attribute("input_semantic") == "TEXCOORD")
   {
+    constexpr std::size_t longest = 4096; // a copy for each binding
     const int set = setOf(markup.attribute("input_set"));
-    this->Bindings.push_back({ this->Instance, this->Symbol, markup.attribute("semantic"), set });
+    if (this->Instance.size() + this->Symbol.size() < longest)
+    {
+      this->Bindings.push_back({ this->Instance, this->Symbol, markup.attribute("semantic"), set });
+    }
   }
 }
 

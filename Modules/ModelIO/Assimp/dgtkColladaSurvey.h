@@ -50,6 +50,7 @@ private:
   std::string Controller;
   std::string Instance;
   std::string Symbol;
+  int Extras = 0; ///< open ones
   bool IsDiffuse = false;
   bool IsAnimation = false;
   bool HasTwins = false;  ///< joints of one sid

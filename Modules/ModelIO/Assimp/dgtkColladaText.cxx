@@ -100,10 +100,16 @@ public:
     {
       return this->input(markup);
     }
-    this->Geometry = markup.isOf("geometry") ? markup.attribute("id") : this->Geometry;
+    if (markup.isOf("geometry"))
+    {
+      this->Geometry = markup.attribute("id");
+    }
     for (const char* const primitive : { "triangles", "polylist", "polygons", "tristrips", "trifans" })
     {
-      this->Symbol = markup.isOf(primitive) ? markup.attribute("material") : this->Symbol;
+      if (markup.isOf(primitive))
+      {
+        this->Symbol = markup.attribute("material");
+      }
     }
     return markup.text();
   }

@@ -96,7 +96,7 @@ private:
         GltfFile::fail("a joint has no matrix");
       }
     }
-    mesh.bones.resize(joints.size());
+    mesh.bones.assign(joints.size(), {});
     for (std::size_t j = 0; j < joints.size(); ++j)
     {
       mesh.bones[j].node = this->Nodes.of(joints[j]);
@@ -157,6 +157,10 @@ private:
       {
         const std::vector<double> by = this->File.ofVertices(targets[t].at("NORMAL"), 3, Integers::AsSaid, mesh);
         mesh.restNormals = mesh.restNormals.empty() ? mesh.normals : mesh.restNormals;
+        if (3 * mesh.restNormals.size() != by.size())
+        {
+          GltfFile::fail("normals are not as expected");
+        }
         for (std::size_t i = 0; i < by.size(); ++i)
         {
           mesh.restNormals[i / 3][i % 3] += static_cast<float>(weight * by[i]);

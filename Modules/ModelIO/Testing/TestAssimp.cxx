@@ -317,3 +317,18 @@ TEST(Assimp, TooMuchMemoryIsSaidInWords)
   EXPECT_EQ(refusal("off", "OFF\n4000000000 4000000000 0\n0 0 0\n"),
     "model.off: cannot be read: needs more memory than a file of its size may");
 }
+
+TEST(Assimp, ColoursOfFacesOfOffFilesHaveAWarning)
+{
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  for (const std::string head : { "OFF\n3 1 0\n", "OFF 3 1 3 # c\n# comment\n\n", "3 1 0\n" })
+  {
+    EXPECT_TRUE(readBytes("off", head + points + "3 0 1 2 # 1 0 0\n")->warnings.empty()) << head;
+    for (const std::string color : { " 255 0 0", " .5 .5 .5 1", " 7" })
+    {
+      EXPECT_THAT(readBytes("off", head + points + "3 0 1 2" + color + '\n')->warnings,
+        testing::ElementsAre("colours of faces are not drawn"))
+        << head;
+    }
+  }
+}

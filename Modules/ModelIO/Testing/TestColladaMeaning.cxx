@@ -232,17 +232,15 @@ TEST(ColladaMeaning, WhatIsNotReadIsSaid)
   EXPECT_THAT(refusal("dae", holed), HasSubstr("cannot be read: polygons with holes (<ph>) are not read"));
 }
 
-TEST(ColladaMeaning, ColoursOfFacesOfOffFilesHaveAWarning)
+TEST(ColladaMeaning, WhatStandsBesideTheModelIsPassedOver)
 {
-  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
-  for (const std::string head : { "OFF\n3 1 0\n", "OFF 3 1 3 # c\n# comment\n\n", "3 1 0\n" })
-  {
-    EXPECT_TRUE(readBytes("off", head + points + "3 0 1 2 # 1 0 0\n")->warnings.empty()) << head;
-    for (const std::string color : { " 255 0 0", " .5 .5 .5 1", " 7" })
-    {
-      EXPECT_THAT(readBytes("off", head + points + "3 0 1 2" + color + '\n')->warnings,
-        ElementsAre("colours of faces are not drawn"))
-        << head;
-    }
-  }
+  const std::string node = "<node id='a' name='a'><rotate>0 0 2 90</rotate>" + instance + "</node>";
+  const std::string more = "<extra><extra/><technique profile='x'><skew>30</skew><h>0</h><morph/></technique></extra>";
+  std::string text = dae(node, "<library_animations/>" + more);
+  text.insert(text.find("<COLLADA"), "<!DOCTYPE COLLADA [ <!-- Bob's --> <!ENTITY e '>' > ]>");
+  const auto model = readBytes("dae", text);
+  EXPECT_THAT(model->warnings, ElementsAre());
+  ASSERT_EQ(model->triangles.size(), 1u);
+  EXPECT_NEAR(model->boundsMax.x(), 0, 1e-6); // turned, and not stretched
+  EXPECT_NEAR(model->boundsMax.y(), 1, 1e-6);
 }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include <sys/resource.h>
@@ -180,5 +181,10 @@ TEST(PictureMemory, InTooLittleRoomNobodyCanSayThatAPictureIsDamaged)
   testing::FLAGS_gtest_death_test_style = "threadsafe"; // a program of its own has a decoder of its own
   const TemporaryFolder folder;
   dgtk::writeFile(folder.path("a.png"), "no picture");
-  EXPECT_EXIT(std::_Exit(decodedInLittleRoom(folder.path("a.png"))), testing::ExitedWithCode(2), "");
+  const auto leave = [&folder](int found)
+  {
+    std::filesystem::remove_all(folder.path("")); // of the program that ends here
+    std::_Exit(found);
+  };
+  EXPECT_EXIT(leave(decodedInLittleRoom(folder.path("a.png"))), testing::ExitedWithCode(2), "");
 }

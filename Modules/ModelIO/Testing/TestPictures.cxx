@@ -29,6 +29,30 @@ namespace
 constexpr int width = 64; // the writer of HEIF reads whole multiples of 64 bytes a row
 constexpr int height = 36;
 
+/// While it lives, files may not have more than 100 bytes.
+class SmallFiles
+{
+public:
+  SmallFiles()
+    : Handler(std::signal(SIGXFSZ, SIG_IGN))
+  {
+    ::getrlimit(RLIMIT_FSIZE, &this->Before);
+    const rlimit small{ 100, this->Before.rlim_max };
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles()
+  {
+    ::setrlimit(RLIMIT_FSIZE, &this->Before);
+    std::signal(SIGXFSZ, this->Handler);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+private:
+  rlimit Before{};
+  void (*Handler)(int);
+};
+
 /// A picture as OpenImageIO writes it; "" when it cannot write the format.
 std::string written(const std::string& path)
 {
@@ -135,23 +159,12 @@ TEST(Pictures, ALimitOfFileSizesIsSaid)
   ASSERT_FALSE(written(path).empty());
   std::string problem;
   ASSERT_TRUE(dgtk::decodeTexture(path, problem)) << problem;
-  rlimit before{};
-  ::getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit small{ 100, before.rlim_max };
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  ::setrlimit(RLIMIT_FSIZE, &small);
-  std::string said;
-  try
+  const auto refusal = [&]
   {
-    dgtk::decodeTexture(path, problem);
-  }
-  catch (const dgtk::MachineError& error)
-  {
-    said = error.what();
-  }
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
-  EXPECT_THAT(said, HasSubstr("bytes here (see ulimit -f)"));
+    const SmallFiles small;
+    return thrownBy<dgtk::MachineError>([&] { dgtk::decodeTexture(path, problem); });
+  };
+  EXPECT_THAT(refusal(), HasSubstr("bytes here (see ulimit -f)"));
 }
 
 TEST(Pictures, ASoundPictureOfEveryFormatIsWhatTheLibraryReads)

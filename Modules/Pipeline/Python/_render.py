@@ -42,8 +42,9 @@ def render(scene, layers, camera=None, frame=None, size=None, renderer=None, kee
     bottom, with the values of the file that `dgtk render` writes: `depth` float64, z in the camera frame in the scene's
     units, +inf where there is nothing; `objects` uint32 ids, 0 where there is nothing; Documentation/Formats/layers.md
     has type, unit and frame of each. `boxes` and `amodal` are what their JSON says; `calibration` is a dict of `K`, `R`,
-    `t` (x_camera = R x_world + t; x right, y down, z forward; not of an orthographic camera), `viewport` and the
-    thesis's matrices; `points` a dict of arrays and tracks; `ldi` a dict of `count`, `rgba`, `depth` and `splat`; `pov` a string. All are the caller's.
+    `t` (x_camera = R x_world + t; x right, y down, z forward; an orthographic camera has none of these three),
+    `viewport` and the thesis's matrices; `points` a dict of arrays and tracks; `ldi` a dict of `count`, `rgba`, `depth`
+    and `splat`; `pov` a string. All are the caller's.
 
     Raises ValueError for a wrong request and RuntimeError for what the machine cannot do (no OpenGL, no memory), one
     line each. Other threads run meanwhile, and may render. Works in forked processes, too.

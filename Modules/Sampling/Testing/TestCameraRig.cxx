@@ -79,6 +79,15 @@ TEST(CameraRig, TurnsWithItsCameraAndCarriesOthers)
   EXPECT_LT((third.rotation.col(2) + first.rotation.col(0)).norm(), 1e-12);
 }
 
+TEST(CameraRig, BeginsWithTheQuaternionOfTheShorterTurn)
+{
+  const SceneDescription scene = sampled(R"({ "name": "left", "position": [0, 0, 0], "orientation": [1, 0, 0, 0] },
+    { "name": "right", "rig": { "camera": "left", "orientation": [0.1, -0.99498743710662, 0, 0] } })")
+                                   .scene;
+  EXPECT_NEAR(scene.cameras[1].orientation.at(0).w, 0.1, 1e-9);
+  EXPECT_NEAR(scene.cameras[1].orientation.at(0).x, -0.99498743710662, 1e-9);
+}
+
 TEST(CameraRig, FollowsAPathAtEveryFrame)
 {
   const std::string orbit = R"({ "name": "left", "path": { "orbit": { "center": [0, 0, 0], "radius": 5, "elevation": 20,

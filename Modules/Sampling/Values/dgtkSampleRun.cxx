@@ -91,7 +91,7 @@ void clearFolder(const SampleRequest& request, const Json& begun)
   }
   if (!request.replace)
   {
-    throw SampleFolderError(request.folder + " holds samples of another run", true);
+    throw SampleFolderError(request.folder + " holds samples already", true);
   }
   std::sort(samples.begin(), samples.end()); // the record is last
   for (const std::string& name : samples)
@@ -187,6 +187,7 @@ private:
     catch (const SampleRefused& error)
     {
       refused = true;
+      this->removeFile(number);
       record["refused"] = { { "path", utf8FromBytes(error.path()) }, { "why", utf8FromBytes(error.why()) },
         { "attempts", error.attempts() } };
     }
@@ -203,6 +204,16 @@ private:
     if (this->Callbacks.progress)
     {
       this->Callbacks.progress(this->Result.written + this->Result.refused, this->Records.size());
+    }
+  }
+
+  /// What an interrupted run may have left, when a model was another one.
+  void removeFile(int number) const
+  {
+    const Folder folder(this->Request.folder);
+    if (folder.look(fileName(number)) == EntryKind::File)
+    {
+      folder.remove(fileName(number));
     }
   }
 

@@ -24,7 +24,7 @@ struct SampleRequest
   int first = 0;
   int last = 0;                      ///< included, at most largestSample
   std::optional<std::uint64_t> seed; ///< instead of the scene's
-  bool replace = false;              ///< samples of another run go
+  bool replace = false;              ///< samples of an earlier run go
   int threads = 1;
 };
 

@@ -9,6 +9,9 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace dgtk::test
 {
 
@@ -253,6 +256,24 @@ TEST(GradientNoise, OctavesAddUp)
   EXPECT_EQ(sensor::GradientNoise(p, random).at(13, 21), first);
   p.persistence = 0.5;
   EXPECT_NE(sensor::GradientNoise(p, random).at(13, 21), first);
+}
+
+TEST(GradientNoise, HasNoJumps)
+{
+  TextureParameters p;
+  p.amplitude = 1;
+  p.octaves = 1;
+  p.period = 64;
+  const sensor::GradientNoise noise(p, CounterRandom(3, 1, 0, 0));
+  double largest = 0;
+  for (int i = 0; i < 256 * 256; ++i)
+  {
+    const int x = i % 256;
+    const int y = i / 256;
+    largest = std::max(
+      { largest, std::abs(noise.at(x + 1, y) - noise.at(x, y)), std::abs(noise.at(x, y + 1) - noise.at(x, y)) });
+  }
+  EXPECT_LT(largest, 5.0 / 64); // gradients of the length 1.42, and what blending two of them by the fade adds
 }
 
 TEST(GradientNoise, OctavesHaveGradientsOfTheirOwn)
