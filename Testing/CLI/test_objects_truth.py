@@ -103,15 +103,6 @@ class ObjectsTruth(Case):
             self.assertTrue(((alpha[..., 0] << 16 | alpha[..., 1] << 8 | alpha[..., 2]) == ids).all())
             self.assertTrue((alpha[..., 3] == 255).all())
 
-    def test_an_object_of_one_pixel_has_a_box(self):
-        self.write("dot.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n")
-        scene = self.write("dot.json", json.dumps({
-            "objects": [{"name": "dot", "model": "dot.obj", "scale": 0.004, "position": [0.0125, 0.0125, 0]}],
-            "cameras": [{"name": "c", "eye": [0, 0, 1], "lookAt": [0, 0, 0], "fovY": 53.13010235415598}]}))
-        folder = self.render("dot", "--layers", "boxes", "--size", "40x40", scene=scene)  # pixels of 0.025
-        [dot] = load_json(os.path.join(folder, "c/boxes/000000.json"))["objects"]
-        self.assertEqual((dot["box_visible"], dot["box_amodal"]), ([20, 19, 21, 20], [20, 19, 21, 20]))
-
     def test_boxes_and_amodal_masks(self):
         folder = self.render("boxes", "--layers", "boxes,amodal,objects,objectcoords,position", "--size", "160x120",
                              "--frames", "1", "--cameras", "right", "--visibility", "ray")

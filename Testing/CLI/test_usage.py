@@ -56,6 +56,7 @@ class Usage(Case):
         self.refused("render", SCENE, "-o", self.path("x"), "--depth-format", "jpg", status=2, says="--depth-format: expected some of npy,")
         self.refused("convert", SCENE, self.path("x.obj"), status=2, says="expected a name in .scene, .json or .pov")
         self.refused("info", self.path("nothing"), status=3, says="nothing: cannot be read: No such file or directory")
+        self.refused("export", self.path("x"), "-o", self.path("y"), status=2, says="export needs a format")
         self.refused("list", "nothing", status=2, says="expected one of readers")
         self.assertFalse(os.path.exists(self.path("x")))
 

@@ -259,6 +259,7 @@ class Objects(datasets.ExportCase):
     def test_upright_boxes(self):
         dataset = self.render(datasets.street(self.path("scene")), self.LAYERS)
         folder, record = self.export(dataset, "kitti-object", "--split", "train=0:0,val=1:1")
+        self.assertEqual([(one["largest_rounding"], one["without_code"]) for one in record["layers"] if one["layer"] == "boxes"], [(0, 0)])
         kinds, cut, hidden, truth = set(), 0, set(), {}
         for entry in record["names"]:
             number = os.path.basename(entry["name"])[:6]

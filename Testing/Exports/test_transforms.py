@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """transforms.json and NeRF-synthetic sets: points of the dataset are projected by each reader's own formulas."""
+import json
 import math
 import os
 
@@ -89,6 +90,9 @@ class Transforms(datasets.ExportCase):
         self.assertGreater(reach, document["aabb_scale"] / 4)
         said = self.planted(dataset, folder, "transforms.json", lambda text: text.replace(b'"cx": 48', b'"cx": 47', 1))
         self.assertIn("layer intrinsics", said)
+        wider = json.dumps(2 * math.atan(97 / 96 * math.tan(document["camera_angle_x"] / 2))).encode()
+        angle = json.dumps(document["camera_angle_x"]).encode()
+        self.planted(dataset, folder, "transforms.json", lambda text: text.replace(b'"w": 96', b'"w": 97', 1).replace(angle, wider, 1))
         said = self.planted(dataset, folder, "transforms.json", lambda text: text.replace(b'0.0,0.0,0.0,1.0]]', b'0.0,0.0,0.0,2.0]]', 1))
         self.assertIn("layer pose", said)
         said = self.planted(dataset, folder, "points.ply", lambda data: data[:-13] + bytes([data[-13] ^ 64]) + data[-12:])
