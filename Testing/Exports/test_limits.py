@@ -145,9 +145,9 @@ class Limits(datasets.ExportCase):
         shown = self.render(scene, *layers, "png")
         for form in DEPTHS:
             with self.subTest(form):
-                self.nothing(form, shown, (f"{form}: camera 'cam L' has no file of layer depth at frame 0", "--depth-format npy"))
+                self.nothing(form, shown, (f"{form}: camera 'cam L' has no file of layer depth at frame 0", "its values are to be rendered as npy"))
         both = self.render(scene, *layers, "png,npy")
-        self.nothing("tum", both, "--depth-noisy-format npy", "--depth", "depth_noisy")
+        self.nothing("tum", both, ("layer depth_noisy", "its values are to be rendered as npy"), "--depth", "depth_noisy")
         with h5py.File(os.path.join(self.export(both, "hdf5")[0], "0.hdf5"), "r") as file:
             depth = layer_of(both, "depth", "cam L", 0)
             self.assertTrue(np.array_equal(file["depth_0"][()], np.where(np.isfinite(depth), depth, 1e10).astype(np.float32)))

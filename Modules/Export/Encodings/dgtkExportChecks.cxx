@@ -52,12 +52,10 @@ void requireFile(const DatasetView& dataset, const DatasetShot& shot, const std:
   if (dataset.file(shot, layer, extensions).empty())
   {
     const bool picture = extensions.empty() && !dataset.file(shot, layer, { "png" }).empty();
-    std::string option = layer;
-    std::replace(option.begin(), option.end(), '_', '-');
     throw UsageError(format + ": camera " + quoted(shot.name()) + " has no file of layer " + layer +
                      (extensions.empty() ? "" : " as ." + joined(extensions, " or .")) + " at frame " +
                      std::to_string(shot.frame()) +
-                     (picture ? " but a picture for people; values need --" + option + "-format npy" : ""));
+                     (picture ? " but a picture for people: its values are to be rendered as npy" : ""));
   }
 }
 

@@ -85,7 +85,7 @@ void clearFolder(const SampleRequest& request, const Json& begun)
                               " but no record of samples",
       false);
   }
-  if (record == begun) // what was written is written again, the same
+  if (record == begun) // each sample is written again, or its file removed
   {
     return;
   }
