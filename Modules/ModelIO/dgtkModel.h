@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -120,6 +121,9 @@ struct Animation
   double fps = 10; ///< frames a second
   /// Named in a file beside the model (.anm), not in the model itself.
   bool beside = false;
+  double length = 0; ///< frames from the first one to the end, which may lie between two; 0: `last` is the end
+
+  double span() const { return this->length > 0 ? this->length : std::max(0, this->last - this->first); }
 };
 
 /// Positions of the vertices of a model over time. The topology never changes.
@@ -129,7 +133,7 @@ public:
   virtual ~Deformation() = default;
   /// Writes the position of every source vertex (Model::sourceVertices of them), in the model's axes, at a model
   /// frame; fractions interpolate between neighbouring frames of the same animation, values outside are clamped to
-  /// [first, last]. `animation` indexes Model::animations. Thread-safe.
+  /// its span. `animation` indexes Model::animations. Thread-safe.
   virtual void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const = 0;
   /// All of it as bytes, for models that are kept for other runs.
   virtual std::string saved() const { return {}; }

@@ -13,6 +13,8 @@ namespace dgtk
 
 namespace
 {
+constexpr double singlePrecision = 1e-7; // of the lengths that files have
+
 std::shared_ptr<const Geometry> blended(const Geometry& a, const Geometry& b, double u)
 {
   auto geometry = std::make_shared<Geometry>();
@@ -71,8 +73,7 @@ int findAnimation(const SceneDescription& scene, const ObjectDescription& object
 
 double sequenceSpan(const Model& model, int animation, bool loop)
 {
-  const Animation& sequence = model.animations[std::size_t(animation)];
-  const double span = std::max(0, sequence.last - sequence.first);
+  const double span = model.animations[std::size_t(animation)].span();
   return loop && span > 0 && model.format == "md2" ? span + 1 : span;
 }
 
@@ -80,14 +81,17 @@ ModelMoment momentAt(
   const AnimationDescription& description, const Model& model, int animation, double frame, double sceneFps)
 {
   const Animation& sequence = model.animations[std::size_t(animation)];
-  const double span = std::max(0, sequence.last - sequence.first);
+  const double span = sequence.span();
   const double seconds = std::max(0.0, frame - description.start) / sceneFps;
   double position = description.offset + seconds * sequence.fps * description.rate;
   ModelMoment moment;
   moment.animation = animation;
   if (description.loop && span > 0)
   {
-    position = std::fmod(position, sequenceSpan(model, animation, true));
+    const double whole = sequenceSpan(model, animation, true);
+    const double rounding = sequence.length > 0 ? singlePrecision * std::max(1.0, position) : 0;
+    const double rest = std::fmod(position, whole);
+    position = whole - rest < rounding ? 0 : rest;
     moment.wrap = std::max(0.0, position - span);
   }
   moment.frame = sequence.first + std::min(position, span);

@@ -47,6 +47,7 @@ enum ChunkId : std::uint16_t
   TextureScaleU = 0xa356,
   TextureOffsetU = 0xa358,
   TextureOffsetV = 0xa35a,
+  TextureAngle = 0xa35c,
   MaterialBlock = 0xafff
 };
 
@@ -308,6 +309,10 @@ private:
         {
           mapped.offset[c.id == TextureOffsetU ? 0 : 1] = this->scalar(c, 0);
         }
+        else if (c.id == TextureAngle)
+        {
+          this->Turned += this->scalar(c, 0) != 0 ? 1 : 0;
+        }
       });
     return name;
   }
@@ -459,6 +464,7 @@ private:
     warn(this->CutChunks, " chunk(s) are longer than the chunk or file that they are in");
     warn(this->UnknownMaterials, " list(s) of faces name a material that does not exist");
     warn(this->BadFaces, " entries of materials name a face that does not exist");
+    warn(this->Turned, " texture(s) are drawn without the angle that their material says");
   }
 
   ByteReader In;
@@ -468,6 +474,7 @@ private:
   std::size_t CutChunks = 0;
   std::size_t UnknownMaterials = 0;
   std::size_t BadFaces = 0;
+  std::size_t Turned = 0;
   bool HasEditor = false;
 };
 } // namespace

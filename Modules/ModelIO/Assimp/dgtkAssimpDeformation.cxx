@@ -27,10 +27,10 @@ struct Between
 Between find(const std::vector<double>& times, double time, import::Interpolation interpolation)
 {
   Between at;
-  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  const bool isStep = interpolation == import::Interpolation::Step;
+  const auto after = std::upper_bound(times.begin(), times.end(), isStep ? time + roundingOf(time) : time);
   at.key = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
-  if (after == times.begin() || after == times.end() || times[at.key] == time ||
-      interpolation == import::Interpolation::Step)
+  if (after == times.begin() || after == times.end() || times[at.key] == time || isStep)
   {
     return at;
   }

@@ -308,6 +308,13 @@ std::string withoutSkins(std::string bytes)
   return bytes;
 }
 
+std::string inOrder(const std::string& bytes)
+{
+  std::string written;
+  problemOf([&] { written = GltfFile::inOrder(bytes); });
+  return written;
+}
+
 std::string gltfProblem(const std::string& path, const ReadContents& contentsOf)
 {
   std::set<std::string> extensions;

@@ -80,7 +80,7 @@ public:
       throw InputError(this->Path, std::string("is damaged: ") + error.what());
     }
     this->Builder.model().companions = this->Scene->files;
-    this->Builder.model().isNumbered = this->Format == "gltf" || this->Format == "off";
+    this->Builder.model().isNumbered = this->Format == "gltf";
     this->Builder.keep(this->Scene->dependencies, 0);
     for (const std::string& warning : this->Scene->warnings)
     {
@@ -223,13 +223,10 @@ private:
     this->Builder.endObject();
   }
 
-  /// This format has no materials; the importer makes one up.
-  bool isPlain() const { return this->Format == "off"; }
-
   void nameTextures()
   {
     std::vector<std::int32_t> used;
-    for (std::size_t i = 0; i < this->Posed.size() && !this->isPlain(); ++i)
+    for (std::size_t i = 0; i < this->Posed.size(); ++i)
     {
       used.push_back(this->Scene->meshes[this->Posed[i].mesh].material);
     }
@@ -240,10 +237,9 @@ private:
     const std::vector<std::int32_t>& normals, bool mirrored)
   {
     SurfaceStyle style;
-    style.material = this->isPlain() ? this->Builder.defaultMaterial() : this->Materials.add(mesh.material);
+    style.material = this->Materials.add(mesh.material);
     style.twoSided = this->Builder.model().materials[static_cast<std::size_t>(style.material)].twoSided;
-    const bool smooth = this->Format == "off" || this->Format == "collada";
-    style.shading = smooth ? Shading::Crease : Shading::Flat;
+    style.shading = this->Format == "collada" ? Shading::Crease : Shading::Flat;
     if (!mesh.uvs.empty())
     {
       this->Builder.setHasUvs();
@@ -278,7 +274,7 @@ private:
     std::size_t declared = 0;
     for (const import::Material& material : this->Scene->materials)
     {
-      declared += !this->isPlain() && material.name != "DefaultMaterial" ? 1 : 0;
+      declared += material.name != "DefaultMaterial" ? 1 : 0;
     }
     this->Builder.model().declaredMaterials = declared;
     if (this->Points > 0)
@@ -296,7 +292,8 @@ private:
       Animation to;
       to.name = from.name.empty() ? "animation" + std::to_string(model.animations.size()) : from.name;
       to.fps = AssimpDeformation::fps;
-      to.last = static_cast<int>(std::lround(std::min(from.duration * to.fps, mostFrames)));
+      to.length = std::min(from.duration * to.fps, mostFrames);
+      to.last = static_cast<int>(std::lround(to.length));
       model.animations.push_back(to);
       model.frames = std::max(model.frames, to.last + 1);
     }

@@ -9,7 +9,6 @@
 #include "dgtkHelperChannel.h"
 #include "dgtkHelperWall.h"
 #include "dgtkImportProtocol.h"
-#include "dgtkOffText.h"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/IOStream.hpp>
@@ -162,6 +161,10 @@ public:
       this->Collada = dgtk::import::colladaText(bytesOf(*file));
       return this->Collada.problem.empty() ? streamOf(std::exchange(this->Collada.text, {})) : nullptr;
     }
+    if (name == this->Sorted)
+    {
+      return streamOf(this->Text);
+    }
     return name == this->Skinned ? streamOf(dgtk::import::withoutSkins(bytesOf(*file))) : file.release();
   }
 
@@ -178,7 +181,9 @@ public:
 
   std::uint64_t Bytes = 0;
   std::set<std::string> Missing;
-  std::string Skinned;               ///< path of a glTF file that is handed out without the skins of its nodes, or ""
+  std::string Skinned; ///< path of a glTF file that is handed out without the skins of its nodes, or ""
+  std::string Sorted;  ///< path of a glTF file instead of which Text is handed out, or ""
+  std::string Text;
   std::string LongNumber;            ///< path of the file that has one, or ""
   std::uint64_t Line = 0;            ///< where it is
   dgtk::import::ColladaText Collada; ///< what was opened last, without the text
@@ -289,6 +294,13 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   files->Skinned = format == "gltf" && dgtk::import::hasSkins(path, contents) ? path : std::string();
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* found = importer.ReadFile(path, format == "gltf" ? 0u : unsigned(aiProcess_TransformUVCoords));
+  if (!found && format == "gltf" && files->LongNumber.empty())
+  {
+    files->Text = dgtk::import::inOrder(contents(path));
+    files->Sorted = files->Text.empty() ? std::string() : path;
+    found = files->Sorted.empty() ? found : importer.ReadFile(path, 0u);
+    files->Sorted.clear();
+  }
   files->Skinned.clear();
   scene.bytesRead = files->Bytes;
   if (refuseLongNumber(*files, scene))
@@ -310,10 +322,6 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   if (format == "collada")
   {
     dgtk::import::restoreNames(scene);
-  }
-  if (format == "off" && dgtk::import::facesHaveColors(contents(path)))
-  {
-    scene.warnings.emplace_back("colours of faces are not drawn");
   }
   if (format == "gltf")
   {

@@ -206,6 +206,23 @@ std::string lookat(const std::string& text)
   }
   return written(n);
 }
+
+/// A tag, and black behind it for what a shading model may leave out: Assimp 5.2 has greys of its own. What the model
+/// says comes later, and counts.
+std::string withBlack(const Markup& markup, std::string tag)
+{
+  const auto black = [](const std::string& part) { return '<' + part + "><color>0 0 0 1</color></" + part + '>'; };
+  for (const std::string model : { "constant", "lambert", "phong", "blinn" })
+  {
+    if (markup.begins(model))
+    {
+      tag.erase(tag.size() - (markup.isEmpty() ? 2 : 1));
+      tag += '>' + black("ambient") + black("specular") + (model == "constant" ? black("diffuse") : "");
+      return markup.isEmpty() ? tag + "</" + model + '>' : tag;
+    }
+  }
+  return tag;
+}
 } // namespace
 
 ColladaText colladaText(const std::string& xml)
@@ -238,7 +255,7 @@ ColladaText colladaText(const std::string& xml)
       }
       else if (!markup.isOf("unit"))
       {
-        to.text += coordinates.tag(markup);
+        to.text += withBlack(markup, coordinates.tag(markup));
       }
     });
   return to;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
+#include <utility>
 
 namespace dgtk::import
 {
@@ -23,6 +25,28 @@ std::size_t littleWord(const std::string& bytes, std::size_t at)
     value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
   }
   return value;
+}
+
+std::string word(std::size_t value)
+{
+  std::string bytes;
+  for (int i = 0; i < 4; ++i)
+  {
+    bytes += static_cast<char>(value >> (8 * i) & 0xff);
+  }
+  return bytes;
+}
+
+/// The JSON of a file, and where what follows it begins.
+std::pair<Json, std::size_t> parsed(const std::string& bytes)
+{
+  if (bytes.compare(0, 4, "glTF") != 0)
+  {
+    return { Json::parse(bytes), bytes.size() };
+  }
+  const std::size_t length = littleWord(bytes, 12);
+  // some pad it with bytes that are 0
+  return { Json::parse(bytes.substr(20, length).c_str()), 20 + (length + 3) / 4 * 4 };
 }
 
 std::string fromBase64(const std::string& text, std::size_t begin)
@@ -74,18 +98,35 @@ GltfFile::GltfFile(const std::string& path, const ReadContents& contentsOf)
   , ContentsOf(contentsOf)
 {
   const std::string bytes = contentsOf(path);
-  if (bytes.compare(0, 4, "glTF") != 0)
-  {
-    this->Root = Json::parse(bytes);
-    return;
-  }
-  const std::size_t length = littleWord(bytes, 12);
-  this->Root = Json::parse(bytes.substr(20, length).c_str()); // some pad it with bytes that are 0
-  const std::size_t binary = 20 + (length + 3) / 4 * 4;
+  std::size_t binary = 0;
+  std::tie(this->Root, binary) = parsed(bytes);
   if (binary + 8 <= bytes.size())
   {
     this->Binary = bytes.substr(binary + 8, littleWord(bytes, binary));
   }
+}
+
+std::string GltfFile::inOrder(const std::string& bytes)
+{
+  auto [root, end] = parsed(bytes);
+  for (Json& list : root)
+  {
+    for (Json& item : list)
+    {
+      if (item.is_object() && item.contains("extras") && !item["extras"].is_object())
+      {
+        item.erase("extras");
+      }
+    }
+  }
+  std::string text = root.dump();
+  if (end == bytes.size())
+  {
+    return text;
+  }
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::string rest = bytes.substr(std::min(end, bytes.size()));
+  return "glTF" + word(2) + word(20 + text.size() + rest.size()) + word(text.size()) + "JSON" + text + rest;
 }
 
 std::vector<double> GltfFile::list(

@@ -80,8 +80,12 @@ private:
   /// Whether an attribute is there, and not as the importer takes it to be.
   bool isStored(const Json& attributes, const std::string& name) const
   {
-    return attributes.contains(name) &&
-           this->File.item("accessors", attributes.at(name)).at("componentType") != GltfFile::floatType;
+    if (!attributes.contains(name))
+    {
+      return false;
+    }
+    const Json& accessor = this->File.item("accessors", attributes.at(name));
+    return accessor.at("componentType") != GltfFile::floatType || accessor.contains("sparse");
   }
 
   std::vector<Float3> vectors(std::size_t accessor, const Mesh& mesh)

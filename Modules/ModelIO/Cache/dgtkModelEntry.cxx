@@ -208,7 +208,7 @@ void io(A& a, Part& p)
 template <class A>
 void io(A& a, Animation& n)
 {
-  a(n.name), a(n.first), a(n.last), a(n.fps), a(n.beside);
+  a(n.name), a(n.first), a(n.last), a(n.fps), a(n.beside), a(n.length);
 }
 template <class A>
 void io(A& a, Geometry& g)

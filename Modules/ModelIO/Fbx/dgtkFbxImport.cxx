@@ -108,28 +108,35 @@ private:
       made.parent = above;
       made.parent_from_node = Transform().matrix();
       made.joint.push_back(jointOf(model));
+      this->addGeometryNode(model, own);
       push(index, own);
     }
   }
 
-  /// What a geometric transform moves hangs on a node of its own, which children of the model do not see.
-  std::int32_t geometryNode(const FbxObject& model, std::int32_t node, const Transform& placed)
+  static Transform placementOf(const FbxObject& model)
   {
-    if (placed.isIdentity())
+    return Transform::shift(model.vector("GeometricTranslation", {})) *
+           Transform::turn(model.vector("GeometricRotation", {}), { 0, 1, 2 }) *
+           Transform::scale(model.vector("GeometricScaling", { 1, 1, 1 }));
+  }
+
+  /// What a geometric transform moves hangs on a node of its own, behind the model's, which its children do not see.
+  void addGeometryNode(const FbxObject& model, std::int32_t node)
+  {
+    const Transform placed = placementOf(model);
+    if (!placed.isIdentity())
     {
-      return node;
+      Node& own = this->To.nodes.emplace_back();
+      own.name = model.name;
+      own.parent = node;
+      own.parent_from_node = placed.matrix();
     }
-    const auto made = static_cast<std::int32_t>(this->To.nodes.size());
-    Node& own = this->To.nodes.emplace_back();
-    own.name = model.name;
-    own.parent = node;
-    own.parent_from_node = placed.matrix();
-    return made;
   }
 
   void addMeshes(std::size_t index)
   {
-    const FbxObject& model = this->File.object(index);
+    const Transform placed = placementOf(this->File.object(index));
+    const std::int32_t node = this->Targets.nodes[index] + (placed.isIdentity() ? 0 : 1);
     const std::vector<std::size_t> materials = this->File.childrenOf(index, "Material");
     for (const std::size_t geometry : this->File.childrenOf(index, "Geometry"))
     {
@@ -137,11 +144,7 @@ private:
       {
         continue;
       }
-      const Transform placed = Transform::shift(model.vector("GeometricTranslation", {})) *
-                               Transform::turn(model.vector("GeometricRotation", {}), { 0, 1, 2 }) *
-                               Transform::scale(model.vector("GeometricScaling", { 1, 1, 1 }));
       const std::vector<std::uint32_t> meshes = this->meshesOf(geometry, materials, placed);
-      const std::int32_t node = this->geometryNode(model, this->Targets.nodes[index], placed);
       std::vector<std::uint32_t>& list = this->To.nodes[static_cast<std::size_t>(node)].meshes;
       list.insert(list.end(), meshes.begin(), meshes.end());
     }

@@ -64,9 +64,9 @@ double inside(const import::Curve& curve, double time)
   switch (curve.segments[i])
   {
     case import::Segment::Step:
-      return begin;
+      return curve.times[i + 1] - time <= roundingOf(time) ? end : begin;
     case import::Segment::StepToNext:
-      return end;
+      return time - curve.times[i] <= roundingOf(time) ? begin : end;
     case import::Segment::Linear:
       return begin * (1 - share) + end * share;
     default:
@@ -245,6 +245,8 @@ Eigen::Affine3d affineOf(const import::Matrix& matrix)
   result.makeAffine();
   return result;
 }
+
+double roundingOf(double time) { return 1e-6 * std::max(1.0, std::abs(time)); }
 
 double valueAt(const import::Curve& curve, double time)
 {

@@ -169,6 +169,11 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
     statements.number(value);
     material.opacity = keyword == "d" ? value : 1 - value;
   }
+  else if (keyword == "illum")
+  {
+    const std::string_view model = statements.word();
+    entry.shines = model != "0" && model != "1";
+  }
   else if (keyword == "Pm" || keyword == "Pr")
   {
     Material::Physical physical = material.physical ? *material.physical : Material::Physical();
@@ -203,7 +208,7 @@ void ObjMaterials::readPictureStatement(ObjStatements& statements, Entry& entry)
 int ObjMaterials::add(const Entry& entry)
 {
   Material material = entry.material;
-  if (!(material.shininess > 0))
+  if (!entry.shines || !(material.shininess > 0))
   {
     material.specular = { 0, 0, 0 }; // an exponent of 0 would shine everywhere
   }

@@ -48,6 +48,7 @@ private:
     Picture emission;
     Picture normals;
     std::set<std::string> unread; ///< statements of other pictures
+    bool shines = true;           ///< its illumination model has highlights
   };
   static Entry unsaid(const std::string& name); ///< what a library does not say
   static Picture readPicture(class ObjStatements& statements);

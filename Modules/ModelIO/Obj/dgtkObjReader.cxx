@@ -21,7 +21,7 @@ constexpr std::uint64_t bytesOfCorner = 50;
 constexpr std::uint64_t bytesOfTriangle = 30;
 constexpr std::uint64_t bytesOfFace = 100;
 
-/// Vertices, texture coordinates and normals of the whole file. Faces may name what comes after them.
+/// What faces may name before it comes: vertices, texture coordinates, normals and libraries of the whole file.
 struct ObjValues
 {
   std::vector<Eigen::Vector3d> positions;
@@ -29,6 +29,7 @@ struct ObjValues
   std::vector<Eigen::Vector3f> normals;
   std::vector<std::array<std::uint8_t, 4>> colors; ///< one a vertex from the first that has one; the rest is white
   bool colored = false;                            ///< some vertex has a colour that is not white
+  std::vector<std::string> libraries;              ///< what statements `mtllib` say
 };
 
 void addVertex(ObjStatements& statements, ObjValues& values)
@@ -70,6 +71,10 @@ ObjValues readValues(const std::string& path, const std::string& text)
       statements.numbers(v, 3);
       values.normals.emplace_back(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
     }
+    else if (statements.keyword() == "mtllib")
+    {
+      values.libraries.emplace_back(statements.rest());
+    }
   }
   return values;
 }
@@ -101,6 +106,10 @@ public:
     if (this->Values.colored)
     {
       this->Builder.setHasColors();
+    }
+    for (const std::string& names : this->Values.libraries)
+    {
+      this->Materials.addLibraries(names);
     }
   }
 
@@ -159,11 +168,7 @@ private:
       const std::string_view group = this->Statements.rest();
       this->Style.shading = group == "off" || group == "0" ? Shading::Flat : Shading::Crease;
     }
-    else if (keyword == "mtllib")
-    {
-      this->Materials.addLibraries(this->Statements.rest());
-    }
-    else
+    else if (keyword != "mtllib")
     {
       const bool freeForm = keyword == "curv" || keyword == "curv2" || keyword == "surf";
       this->FreeForms += freeForm ? 1 : 0;

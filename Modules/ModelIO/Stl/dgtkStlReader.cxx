@@ -136,19 +136,18 @@ private:
 void readFacet(StlWords& words, std::vector<Eigen::Vector3d>& corners)
 {
   std::vector<Eigen::Vector3d> loop;
+  bool isNormal = false; // its words go on until the vertices', which are what counts
   for (std::string_view word = words.next(); !is(word, "endfacet"); word = words.next())
   {
+    const bool isNext = is(word, "vertex") || is(word, "outer");
+    isNormal = (isNormal || is(word, "normal")) && !isNext;
     if (is(word, "vertex"))
     {
       const double x = words.number();
       const double y = words.number();
       loop.emplace_back(x, y, words.number());
     }
-    else if (is(word, "normal"))
-    {
-      words.restOfLine(); // what the vertices say counts
-    }
-    else if (!is(word, "outer") && !is(word, "loop") && !is(word, "endloop"))
+    else if (!isNext && !isNormal && !is(word, "loop") && !is(word, "endloop"))
     {
       words.refuse("vertex or endfacet", word);
     }

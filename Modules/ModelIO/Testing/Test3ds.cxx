@@ -150,6 +150,18 @@ TEST(Studio3ds, TexturesAreScaledAndMoved)
   EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3.25));
 }
 
+TEST(Studio3ds, AnglesOfTexturesHaveAWarning)
+{
+  const auto warnings = [](float angle)
+  {
+    const std::string map = chunk3ds(0xa300, text3ds("T.PNG")) + chunk3ds(0xa35c, f32(angle));
+    const std::string material = chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")) + chunk3ds(0xa200, map));
+    return readBytes("3ds", meshFile(vertices(roof) + faces3ds(roofFaces), material))->warnings;
+  };
+  EXPECT_THAT(warnings(30), Contains("1 texture(s) are drawn without the angle that their material says"));
+  EXPECT_THAT(warnings(0), testing::Not(Contains(HasSubstr("angle"))));
+}
+
 TEST(Studio3ds, TexturesRepeatAreMirroredOrEnd)
 {
   using dgtk::TextureWrap;

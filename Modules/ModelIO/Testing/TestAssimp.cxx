@@ -21,8 +21,6 @@ using testing::HasSubstr;
 
 namespace
 {
-const char* const quadOff = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
-
 const char* const quadDae =
   R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
@@ -88,15 +86,6 @@ private:
 };
 } // namespace
 
-TEST(Assimp, Off)
-{
-  const auto model = readBytes("off", quadOff);
-  EXPECT_EQ(brokenPromise(*model), "");
-  EXPECT_EQ(model->triangles.size(), 2u);
-  EXPECT_EQ(model->sourceVertices, 4u);
-  EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, 1));
-}
-
 TEST(Assimp, ColladaStaysInItsOwnAxesAndUnits)
 {
   const auto model = readBytes("dae", quadDae);
@@ -139,10 +128,10 @@ TEST(Assimp, AnImporterThatDiesIsAnInputError)
   const auto expectMessage = [](const std::string& script, const std::string& message)
   {
     const OtherImporter other(script);
-    EXPECT_THAT(thrownBy<dgtk::InputError>([&] { readBytes("off", quadOff); }), HasSubstr(message)) << script;
+    EXPECT_THAT(thrownBy<dgtk::InputError>([&] { readBytes("fbx", quadFbx); }), HasSubstr(message)) << script;
   };
   EXPECT_EQ(dgtk::InputError("", "").code(), dgtk::ExitCode::Input);
-  expectMessage("kill -ABRT $$", "model.off: is damaged: its importer ended abnormally (signal 6, Aborted)");
+  expectMessage("kill -ABRT $$", "model.fbx: is damaged: its importer ended abnormally (signal 6, Aborted)");
   expectMessage("kill -SEGV $$", "(signal 11");
   expectMessage("kill -XCPU $$", "took more processor time or memory than allowed");
   expectMessage("exit 3", "(incomplete answer)");
@@ -193,24 +182,26 @@ TEST(Assimp, OneProgramImportsAllModelsAndACrashCostsOne)
   {
     for (int i = 0; i < 3; ++i)
     {
-      EXPECT_EQ(readBytes("off", quadOff)->triangles.size(), 2u);
+      EXPECT_EQ(readBytes("fbx", quadFbx)->triangles.size(), 2u);
       EXPECT_THAT(refusal("glb", "glTF"), HasSubstr("model.glb: cannot be read: "));
     }
   };
   std::thread beside(reads);
   reads();
   beside.join();
-  std::string large = "OFF\n3 400000 0\n0 0 0\n1 0 0\n0 1 0\n";
+  std::string large = quadFbx;
+  std::string faces;
   for (int i = 0; i < 400000; ++i)
   {
-    large += "3 0 1 2\n";
+    faces += "0,1,-3,";
   }
+  large.insert(large.find("0,1,2,-4"), faces);
   bool killed = false;
   std::thread killer([&killed] { killed = killCopy(); });
-  const std::string said = refusal("off", large);
+  const std::string said = refusal("fbx", large);
   killer.join();
   ASSERT_TRUE(killed);
-  EXPECT_THAT(said, HasSubstr("model.off: is damaged: its importer ended abnormally (signal 10"));
+  EXPECT_THAT(said, HasSubstr("model.fbx: is damaged: its importer ended abnormally (signal 10"));
   reads();
   EXPECT_EQ(dgtk::readFile(folder.path("log")), "started\n");
 }
@@ -220,16 +211,16 @@ TEST(Assimp, AnInterruptionIsNoDamage)
   for (const char* signal : { "INT", "TERM", "HUP" })
   {
     const OtherImporter interrupted(std::string("kill -") + signal + " $$");
-    EXPECT_THROW(readBytes("off", quadOff), dgtk::MachineError) << signal;
+    EXPECT_THROW(readBytes("fbx", quadFbx), dgtk::MachineError) << signal;
   }
 }
 
 TEST(Assimp, AMissingImporterIsTheMachinesFault)
 {
   ::setenv("DGTK_IMPORT", "/nowhere/dgtk-import", 1);
-  EXPECT_THROW(readBytes("off", quadOff), dgtk::MachineError);
+  EXPECT_THROW(readBytes("fbx", quadFbx), dgtk::MachineError);
   ::unsetenv("DGTK_IMPORT");
-  EXPECT_EQ(readBytes("off", quadOff)->triangles.size(), 2u);
+  EXPECT_EQ(readBytes("fbx", quadFbx)->triangles.size(), 2u);
 }
 
 TEST(Assimp, FilesOutsideOfTheModelsFolderAreRefused)
@@ -302,10 +293,15 @@ TEST(Assimp, BuffersBesideTheModel)
 
 TEST(Assimp, ANumberOfTooManyDigitsIsRefusedAtOnce)
 {
-  const std::string many(3'000'000, '1');
-  EXPECT_EQ(
-    refusal("off", "OFF\n4 2 " + many + '\n'), "model.off:2: cannot be read: a number has more than 1000 digits");
-  EXPECT_EQ(refusal("off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0.0" + std::string(900, '1') + "\n3 0 1 2\n"), "");
+  const auto withTranslation = [](const std::string& z)
+  {
+    std::string text = quadDae;
+    text.insert(text.find("5</translate>"), z);
+    return text;
+  };
+  EXPECT_EQ(refusal("dae", withTranslation(std::string(3'000'000, '1'))),
+    "model.dae:11: cannot be read: a number has more than 1000 digits");
+  EXPECT_EQ(refusal("dae", withTranslation("0." + std::string(900, '1'))), "");
 }
 
 TEST(Assimp, TooMuchMemoryIsSaidInWords)
@@ -314,21 +310,8 @@ TEST(Assimp, TooMuchMemoryIsSaidInWords)
   {
     GTEST_SKIP() << "sanitizers end a process that asks for too much";
   }
-  EXPECT_EQ(refusal("off", "OFF\n4000000000 4000000000 0\n0 0 0\n"),
-    "model.off: cannot be read: needs more memory than a file of its size may");
-}
-
-TEST(Assimp, ColoursOfFacesOfOffFilesHaveAWarning)
-{
-  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
-  for (const std::string head : { "OFF\n3 1 0\n", "OFF 3 1 3 # c\n# comment\n\n", "3 1 0\n" })
-  {
-    EXPECT_TRUE(readBytes("off", head + points + "3 0 1 2 # 1 0 0\n")->warnings.empty()) << head;
-    for (const std::string color : { " 255 0 0", " .5 .5 .5 1", " 7" })
-    {
-      EXPECT_THAT(readBytes("off", head + points + "3 0 1 2" + color + '\n')->warnings,
-        testing::ElementsAre("colours of faces are not drawn"))
-        << head;
-    }
-  }
+  std::string text = quadDae;
+  const std::string count = "count=\"12\"";
+  text.replace(text.find(count), count.size(), "count=\"4000000000\"");
+  EXPECT_EQ(refusal("dae", text), "model.dae: cannot be read: needs more memory than a file of its size may");
 }

@@ -204,6 +204,44 @@ TEST(ColladaMeaning, MaterialsSayWhichTextureCoordinatesTheyHave)
   }
 }
 
+TEST(ColladaMeaning, ShadingModelsReflectNothingButWhatTheySay)
+{
+  const auto material = [](const std::string& shading)
+  {
+    const auto model = readBytes(
+      "dae", dae("<node><instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='m' "
+                 "target='#M'/></technique_common></bind_material></instance_geometry></node>",
+               "<library_effects><effect id='e'><profile_COMMON><technique sid='t'>" + shading +
+                 "</technique></profile_COMMON></effect></library_effects><library_materials><material id='M'>"
+                 "<instance_effect url='#e'/></material></library_materials>"));
+    return model->materials.at(std::size_t(model->parts.at(0).material));
+  };
+  const Eigen::Vector3d black(0, 0, 0);
+  const Eigen::Vector3d half(0.5, 0.25, 1);
+  const auto part = [](const std::string& name)
+  { return '<' + name + "><color>0.5 0.25 1 1</color></" + name + ">\n"; };
+  for (const std::string model : { "lambert", "phong", "blinn" })
+  {
+    const dgtk::Material bare = material("<" + model + ">" + part("diffuse") + "</" + model + ">");
+    EXPECT_EQ(bare.diffuse, half) << model;
+    EXPECT_EQ(bare.ambient, black) << model;
+    EXPECT_EQ(bare.specular, black) << model;
+    const dgtk::Material full = material("<" + model + ">" + part("ambient") + part("specular") +
+                                         "<shininess><float>7</float></shininess></" + model + ">");
+    EXPECT_EQ(full.ambient, half) << model;
+    EXPECT_EQ(full.specular, half) << model;
+    EXPECT_EQ(full.shininess, 7) << model;
+  }
+  for (const std::string& glow : { "<constant>" + part("emission") + "</constant>", std::string("<constant/>") })
+  {
+    const dgtk::Material constant = material(glow);
+    EXPECT_EQ(constant.diffuse, black) << glow;
+    EXPECT_EQ(constant.ambient, black) << glow;
+    EXPECT_EQ(constant.specular, black) << glow;
+    EXPECT_EQ(constant.emission, glow == "<constant/>" ? black : half);
+  }
+}
+
 TEST(ColladaMeaning, NodesWithoutMeshesDrawNothing)
 {
   std::string text = dae("<node id='a' name='a'><node id='b' name='b'><translate>1 0 0</translate></node></node>");

@@ -138,6 +138,51 @@ TEST(Gltf, AMeshMovesWithTheNodesAboveIt)
   expectFloats({ 1, 0, 3 }, at(*model, 15)[0]);
 }
 
+TEST(Gltf, StepsBeginAtTheFrameOfTheirKey)
+{
+  for (const int fps : { 24, 25, 30, 60 })
+  {
+    std::vector<float> times;
+    std::vector<float> places;
+    for (int i = 0; i < 200; ++i)
+    {
+      times.push_back(float(i) / float(fps));
+      places.insert(places.end(), { float(i), 0, 0 });
+    }
+    GltfMaker maker = plain({ { "name", "m" } });
+    maker.json["nodes"][0].erase("scale");
+    const int input = maker.floats("SCALAR", times);
+    const int output = maker.floats("VEC3", places);
+    maker.json["animations"] = { { { "channels", { channel(0, 0, "translation") } },
+      { "samplers", { sampler(input, output, "STEP") } } } };
+    const auto model = readBytes("gltf", maker.gltf());
+    for (int i = 0; i < 200; ++i)
+    {
+      EXPECT_EQ(at(*model, 30.0 * i / fps)[0].x(), i) << fps;
+    }
+    EXPECT_EQ(at(*model, 30.0 * 7 / fps - 0.001)[0].x(), 6) << fps;
+  }
+}
+
+TEST(Gltf, AnAnimationLastsAsLongAsItsKeys)
+{
+  for (const double seconds : { 41.0 / 24, 0.25 / 24, 2.0 })
+  {
+    GltfMaker maker = plain({ { "name", "m" } });
+    maker.json["nodes"][0].erase("scale");
+    const int times = maker.floats("SCALAR", { 0, float(seconds) });
+    const int moves = maker.floats("VEC3", { 0, 0, 0, 1, 0, 0 });
+    maker.json["animations"] = { { { "channels", { channel(0, 0, "translation") } },
+      { "samplers", { sampler(times, moves) } } } };
+    const auto model = readBytes("gltf", maker.gltf());
+    const dgtk::Animation& animation = model->animations.at(0);
+    EXPECT_NEAR(animation.length, 30 * seconds, 1e-5);
+    EXPECT_EQ(animation.span(), animation.length);
+    EXPECT_EQ(animation.last, std::lround(30 * seconds));
+    expectFloats({ 1, 0, 3 }, at(*model, animation.length)[0]);
+  }
+}
+
 TEST(Gltf, WhatAnAnimationDoesNotGiveStaysAsAtRest)
 {
   auto scene = std::make_shared<dgtk::import::Scene>();

@@ -88,6 +88,61 @@ TEST(GltfMeshes, ColoursOfVertices)
   EXPECT_THROW(readBytes("glb", sparse(3).glb()), dgtk::InputError);
 }
 
+TEST(GltfMeshes, SparseOverRowsWithGaps)
+{
+  GltfMaker maker = bare();
+  const int rows = maker.floats("VEC3", { 0, 0, 0, 7, 7, 7, 9, 9, 9, 7, 7, 7, 0, 1, 0, 7, 7, 7 });
+  const Json places = maker.json["accessors"][std::size_t(maker.shorts("SCALAR", { 1 }))]["bufferView"];
+  const Json values = maker.json["accessors"][std::size_t(maker.floats("VEC3", { 1, 0, 0 }))]["bufferView"];
+  Json& accessor = maker.json["accessors"][std::size_t(rows)];
+  accessor["count"] = 3;
+  accessor["sparse"] = { { "count", 1 }, { "indices", { { "bufferView", places }, { "componentType", 5123 } } },
+    { "values", { { "bufferView", values } } } };
+  maker.json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteStride"] = 24;
+  attributesOf(maker)["POSITION"] = rows;
+  const auto model = readBytes("glb", maker.glb());
+  EXPECT_EQ(brokenPromise(*model), "");
+  const auto& t = model->triangles.at(0);
+  EXPECT_EQ(model->rest->positions[t[0]], Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(model->rest->positions[t[1]], Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(model->rest->positions[t[2]], Eigen::Vector3d(0, 1, 0));
+}
+
+TEST(GltfMeshes, NamesHaveNoOrderAndExtrasAnyType)
+{
+  GltfMaker maker = bare();
+  attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+  attributesOf(maker)["TEXCOORD_0"] = maker.floats("VEC2", { 0.5f, 1, 0, 1, 0, 1 });
+  attributesOf(maker)["TEXCOORD_1"] = maker.floats("VEC2", { 0.25f, 1, 0, 1, 0, 1 });
+  maker.json["nodes"][0]["extras"] = { { "kept", 1 } };
+  const auto read = [](const char* extension, const std::string& bytes)
+  {
+    const auto model = readBytes(extension, bytes);
+    EXPECT_THAT(model->warnings, testing::IsEmpty());
+    EXPECT_EQ(model->rest->positions[model->triangles.at(0)[1]], Eigen::Vector3d(1, 0, 0));
+    return model->uvs.at(model->triangles[0][0])[0];
+  };
+  const auto swapped = [](std::string bytes)
+  {
+    const std::string names[] = { "TEXCOORD_0", "TEXCOORD_1" };
+    const std::size_t at[] = { bytes.find(names[0]), bytes.find(names[1]) };
+    bytes.replace(at[0], names[0].size(), names[1]);
+    bytes.replace(at[1], names[0].size(), names[0]);
+    return bytes;
+  };
+  EXPECT_EQ(read("gltf", maker.gltf()), 0.5);
+  EXPECT_EQ(read("gltf", swapped(maker.gltf())), 0.25);
+  EXPECT_EQ(read("glb", swapped(maker.glb())), 0.25);
+  for (const Json& extras : { Json(3), Json("text"), Json::array({ 1 }), Json(nullptr) })
+  {
+    maker.json["meshes"][0]["extras"] = extras;
+    maker.json["nodes"][0]["extras"] = extras;
+    maker.json["materials"][0]["extras"] = extras;
+    EXPECT_EQ(read("gltf", maker.gltf()), 0.5) << extras;
+    EXPECT_EQ(read("glb", swapped(maker.glb())), 0.25) << extras;
+  }
+}
+
 TEST(GltfMeshes, TargetsOfOtherTypesThanTheirMesh)
 {
   for (const bool stored : { false, true })

@@ -58,7 +58,7 @@ ModelEntry fullEntry()
   model->sourceOf = { 0, 1, 2, 3, 1 };
   model->isNumbered = false;
   model->normalGroup = { 2, 0, 1 };
-  model->animations = { { "walk", 2, 9, 12.5, true } };
+  model->animations = { { "walk", 2, 9, 12.5, true, 6.75 } };
   model->frames = 11;
   model->lines = 12;
   model->declaredTriangles = 13;
@@ -116,7 +116,7 @@ std::string said(const ModelEntry& entry)
   }
   for (const Animation& x : m.animations)
   {
-    out << x.name << ' ' << x.first << ' ' << x.last << ' ' << x.fps << ' ' << x.beside << '\n';
+    out << x.name << ' ' << x.first << ' ' << x.last << ' ' << x.fps << ' ' << x.beside << ' ' << x.length << '\n';
   }
   list(m.triangles), list(m.rest->positions), list(m.rest->normals), list(m.uvs), list(m.colors);
   list(std::vector<std::vector<std::uint32_t>>{ m.sourceVertex, m.sourceOf, m.normalGroup });

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 
 using namespace dgtk::test;
@@ -111,6 +112,14 @@ TEST(Stl, TextInAllItsShapes)
     const auto other = readBytes("stl", text);
     EXPECT_EQ(other->triangles.size(), 12u);
     EXPECT_EQ(other->parts.at(0).name, text == mac ? "cube" : "CUBE");
+  }
+  std::string line = facet({ "0 0 0", "1 0 0", "0 1 0" }) + facet({ "0 0 1", "1 0 1", "0 1 1" });
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  EXPECT_EQ(readBytes("stl", "solid a\n" + line + "\nendsolid\n")->triangles.size(), 2u);
+  for (const std::string normal : { "", "0 0 1 of its maker", "0 0 1\nnot seen" })
+  {
+    const std::string text = "solid a\nfacet normal " + normal + facet({ "0 0 0", "1 0 0", "0 1 0" }).substr(18);
+    EXPECT_EQ(readBytes("stl", text + "endsolid")->triangles.size(), 1u) << normal;
   }
 }
 

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <OpenImageIO/imageio.h>
+
 #include <filesystem>
 
 using dgtk::decodeTexture;
@@ -364,4 +366,93 @@ TEST(TextureFile, PicturesOfLight)
   EXPECT_FALSE(problem.empty());
   EXPECT_FALSE(dgtk::decodeRadiance(folder.path("no.hdr"), problem));
   EXPECT_EQ(problem.find('\n'), std::string::npos);
+}
+
+// Ward 1991: the first axis is that of the rows, "-Y" goes down and "+X" to the right.
+TEST(TextureFile, PicturesOfLightAreTurnedAsTheyAreMeant)
+{
+  struct Row
+  {
+    const char* resolution;
+    std::vector<int> stored; ///< of the picture 1 2 3 above 4 5 6
+  };
+  const TemporaryFolder folder;
+  std::string problem;
+  std::vector<std::uint8_t> upright; ///< texels of the first
+  for (const Row& row : { Row{ "-Y 2 +X 3", { 1, 2, 3, 4, 5, 6 } }, Row{ "-Y 2 -X 3", { 3, 2, 1, 6, 5, 4 } },
+         Row{ "+Y 2 +X 3", { 4, 5, 6, 1, 2, 3 } }, Row{ "+Y 2 -X 3", { 6, 5, 4, 3, 2, 1 } },
+         Row{ "+X 3 -Y 2", { 1, 4, 2, 5, 3, 6 } }, Row{ "+X 3 +Y 2", { 4, 1, 5, 2, 6, 3 } },
+         Row{ "-X 3 -Y 2", { 3, 6, 2, 5, 1, 4 } }, Row{ "-X 3 +Y 2", { 6, 3, 5, 2, 4, 1 } } })
+  {
+    std::string text =
+      "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\nEXPOSURE= 4\n\n" + std::string(row.resolution) + '\n';
+    for (const int value : row.stored)
+    {
+      text += std::string(3, char(16 * value)) + '\x84'; // 16 v / 256 * 2^4
+    }
+    writeFile(folder.path("sky.hdr"), text);
+    const auto sky = dgtk::decodeRadiance(folder.path("sky.hdr"), problem);
+    ASSERT_TRUE(sky) << problem;
+    ASSERT_EQ(sky->width, 3) << row.resolution;
+    for (std::size_t i = 0; i < 18; ++i)
+    {
+      EXPECT_FLOAT_EQ(sky->rgb.at(i), float(i / 3 + 1) / 8) << row.resolution << ' ' << i;
+    }
+    const auto texture = decodeTexture(folder.path("sky.hdr"), problem);
+    ASSERT_EQ(texture->width, 3) << row.resolution;
+    upright = upright.empty() ? texture->rgba : upright;
+    EXPECT_EQ(texture->rgba, upright) << row.resolution;
+  }
+  for (const std::string wrong : { "0", "-1", "nan", "1e300" })
+  {
+    writeFile(folder.path("wrong.hdr"),
+      "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=" + wrong + "\n\n-Y 1 +X 1\n\x40\x40\x40\x84");
+    EXPECT_FALSE(dgtk::decodeRadiance(folder.path("wrong.hdr"), problem)) << wrong;
+    EXPECT_EQ(problem, "has an EXPOSURE that is no number above 0");
+  }
+}
+
+TEST(TextureFile, DataWindowsStandInTheirDisplayWindow)
+{
+  struct Row
+  {
+    int x, y, width, height; ///< of the data; the display is 4 x 3 at (10, 20)
+  };
+  const TemporaryFolder folder;
+  std::string problem;
+  for (const Row& row : { Row{ 10, 20, 4, 3 }, Row{ 11, 21, 2, 1 }, Row{ 8, 19, 7, 5 }, Row{ 12, 18, 5, 3 } })
+  {
+    OIIO::ImageSpec spec(row.width, row.height, 4, OIIO::TypeDesc::FLOAT);
+    spec.x = row.x;
+    spec.y = row.y;
+    spec.full_x = 10;
+    spec.full_y = 20;
+    spec.full_width = 4;
+    spec.full_height = 3;
+    std::vector<float> values;
+    for (int i = 0; i < row.width * row.height; ++i)
+    {
+      const float red = float(row.x + i % row.width) / 64;
+      values.insert(values.end(), { red, float(row.y + i / row.width) / 64, 1, 1 });
+    }
+    const auto output = OIIO::ImageOutput::create(folder.path("a.exr"));
+    ASSERT_TRUE(output->open(folder.path("a.exr"), spec));
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, values.data()) && output->close());
+    const auto light = dgtk::decodeRadiance(folder.path("a.exr"), problem);
+    const auto texels = decodeTexture(folder.path("a.exr"), problem);
+    ASSERT_TRUE(light && texels) << problem;
+    ASSERT_EQ(std::make_pair(light->width, light->height), std::make_pair(4, 3));
+    ASSERT_EQ(std::make_pair(texels->width, texels->height), std::make_pair(4, 3));
+    for (int i = 0; i < 12; ++i)
+    {
+      const int x = 10 + i % 4;
+      const int y = 20 + i / 4;
+      const bool there = x >= row.x && x < row.x + row.width && y >= row.y && y < row.y + row.height;
+      const float* const rgb = &light->rgb.at(std::size_t(3) * i);
+      EXPECT_THAT(std::vector<float>(rgb, rgb + 3),
+        testing::ElementsAre(there ? float(x) / 64 : 0.0F, there ? float(y) / 64 : 0.0F, there ? 1.0F : 0.0F))
+        << row.x << ' ' << i;
+      EXPECT_EQ(texels->rgba.at(std::size_t(4) * i + 3), there ? 255 : 0) << row.x << ' ' << i;
+    }
+  }
 }

@@ -6,9 +6,16 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -86,10 +93,95 @@ bool isMultiplied(const OIIO::ImageInput& input, const Request& request, const A
          input.spec().get_int_attribute("oiio:UnassociatedAlpha") == 0;
 }
 
+/// Where pixel i of row j of a file stands in its picture: at start + i along + j across. What is beyond the picture is
+/// cut, where nothing stands it is black.
+struct Placing
+{
+  using Step = std::array<std::int64_t, 2>; ///< columns, rows
+  int width = 0;
+  int height = 0;
+  Step start = { 0, 0 };
+  Step along = { 1, 0 };
+  Step across = { 0, 1 };
+  float factor = 1; ///< of light
+
+  bool moves(const OIIO::ImageSpec& file) const
+  {
+    return this->width != file.width || this->height != file.height || this->start != Step{ 0, 0 } ||
+           this->along != Step{ 1, 0 };
+  }
+  void place(const std::uint8_t* from, const OIIO::ImageSpec& file, std::size_t bytes, std::uint8_t* to) const
+  {
+    for (int j = 0; j < file.height; ++j)
+    {
+      for (int i = 0; i < file.width; ++i, from += bytes)
+      {
+        const std::int64_t x = this->start[0] + i * this->along[0] + j * this->across[0];
+        const std::int64_t y = this->start[1] + i * this->along[1] + j * this->across[1];
+        if (x >= 0 && x < this->width && y >= 0 && y < this->height)
+        {
+          std::memcpy(to + (std::size_t(y) * std::size_t(this->width) + std::size_t(x)) * bytes, from, bytes);
+        }
+      }
+    }
+  }
+};
+
+/// The header of a Radiance file has the way of its rows and of their pixels, "-Y 2 +X 3": down, and to the right; and
+/// what its light was multiplied by.
+void readRadianceHeader(const std::string& path, Placing& placing)
+{
+  std::ifstream file(path);
+  std::string line;
+  double exposure = 1;
+  while (std::getline(file, line) && !line.empty())
+  {
+    double value = 1;
+    exposure *= std::sscanf(line.c_str(), "EXPOSURE=%lf", &value) == 1 ? value : 1;
+  }
+  placing.factor = float(1 / exposure);
+  if (!(exposure > 0) || !(placing.factor > 0) || std::isinf(placing.factor))
+  {
+    throw std::runtime_error("has an EXPOSURE that is no number above 0");
+  }
+  std::getline(file, line);
+  char sign[2] = { '-', '+' };
+  char axis = 'Y';
+  std::sscanf(line.c_str(), "%c%c %*d %c", &sign[0], &axis, &sign[1]);
+  const int x = axis == 'X' ? 0 : 1; // which of the two is across
+  if (x == 0)
+  {
+    std::swap(placing.width, placing.height);
+  }
+  const int right = sign[x] == '+' ? 1 : -1;
+  const int down = sign[1 - x] == '-' ? 1 : -1;
+  placing.start = { right > 0 ? 0 : placing.width - 1, down > 0 ? 0 : placing.height - 1 };
+  (x == 0 ? placing.across : placing.along) = { right, 0 };
+  (x == 0 ? placing.along : placing.across) = { 0, down };
+}
+
+Placing placingOf(const OIIO::ImageInput& input, const std::string& path)
+{
+  const OIIO::ImageSpec& spec = input.spec();
+  const std::string format = input.format_name();
+  Placing placing{ spec.width, spec.height };
+  if (format == "openexr")
+  {
+    placing = { spec.full_width, spec.full_height,
+      { std::int64_t(spec.x) - spec.full_x, std::int64_t(spec.y) - spec.full_y } };
+  }
+  else if (format == "hdr")
+  {
+    readRadianceHeader(path, placing);
+  }
+  return placing;
+}
+
 void decode(const Request& request, int file, int memory, Answer& answer)
 {
   std::string problem;
-  const auto input = open(request, descriptorFolder + std::to_string(file), problem);
+  const std::string path = descriptorFolder + std::to_string(file);
+  const auto input = open(request, path, problem);
   if (!input)
   {
     refuse(answer, problem);
@@ -103,14 +195,35 @@ void decode(const Request& request, int file, int memory, Answer& answer)
   }
   const std::string extension = request.extension;
   answer.linear = extension == "hdr" || extension == "exr" || spec.format.is_floating_point() ? 1 : 0;
+  const Placing placing = placingOf(*input, path);
+  const bool moves = placing.moves(spec);
+  const std::size_t pixelBytes = std::size_t(answer.channels) * (request.values == Values::Floats ? sizeof(float) : 1);
+  const std::uint64_t area = std::uint64_t(spec.width) * std::uint64_t(spec.height);
+  const std::int64_t shown = std::max<std::int64_t>(1, std::int64_t(placing.width) * placing.height);
+  const std::uint64_t nativeBytes = (spec.pixel_bytes(true) + pixelBytes) * (1 + area / std::uint64_t(shown));
+  if (moves && !admit(request, placing.width, placing.height, spec.nchannels, nativeBytes, 0, answer))
+  {
+    return;
+  }
   if (request.step == Step::Decode)
   {
     const PixelMemory pixels(request, answer, memory);
+    std::vector<std::uint8_t> asInFile(moves ? area * pixelBytes : 0);
     const auto type = request.values == Values::Floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-    if (!input->read_image(0, 0, 0, answer.channels, type, pixels.data()))
+    if (!input->read_image(0, 0, 0, answer.channels, type, moves ? static_cast<void*>(asInFile.data()) : pixels.data()))
     {
       refuse(answer, input->geterror());
       return;
+    }
+    if (moves)
+    {
+      std::memset(pixels.data(), 0, pixels.size());
+      placing.place(asInFile.data(), spec, pixelBytes, static_cast<std::uint8_t*>(pixels.data()));
+    }
+    if (request.values == Values::Floats && placing.factor != 1)
+    {
+      auto* const light = static_cast<float*>(pixels.data());
+      std::transform(light, light + pixels.size() / sizeof(float), light, [&](float v) { return v * placing.factor; });
     }
     if (isMultiplied(*input, request, answer))
     {

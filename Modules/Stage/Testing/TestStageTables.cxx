@@ -110,6 +110,35 @@ TEST(StageTables, MomentsOfSequences)
   }
 }
 
+TEST(StageTables, SequencesMayEndBetweenFrames)
+{
+  Model model;
+  model.format = "gltf";
+  const double length = 30 * double(41.f / 24); // as files have it
+  model.animations = { { "walk", 0, 51, 30, false, length }, { "blink", 0, 0, 30, false, 0.3125 } };
+  const auto frameAt = [&model](int animation, double frame, bool loop)
+  {
+    AnimationDescription description;
+    description.loop = loop;
+    const ModelMoment moment = momentAt(description, model, animation, frame, 24);
+    EXPECT_EQ(moment.wrap, 0);
+    return moment.frame;
+  };
+  EXPECT_NEAR(frameAt(0, 40, false), 50, 1e-12);
+  EXPECT_NEAR(frameAt(0, 41, false), 51.25, 1e-5);
+  EXPECT_NEAR(frameAt(0, 700, false), 51.25, 1e-5);
+  for (const int round : { 1, 2, 3, 1000 })
+  {
+    EXPECT_EQ(frameAt(0, 41 * round, true), 0) << round;
+    EXPECT_NEAR(frameAt(0, 41 * round + 1, true), 1.25, 1e-5 * round) << round;
+    EXPECT_NEAR(frameAt(0, 41 * round - 1, true), 50, 1e-5 * round) << round;
+  }
+  EXPECT_EQ(sequenceSpan(model, 0, true), length);
+  EXPECT_EQ(sequenceSpan(model, 1, false), 0.3125);
+  EXPECT_EQ(frameAt(1, 1, false), 0.3125);
+  EXPECT_EQ(frameAt(1, 0.125, true), 0.15625);
+}
+
 TEST(StageTables, SequencesByNameThenByNumber)
 {
   SceneDescription scene;

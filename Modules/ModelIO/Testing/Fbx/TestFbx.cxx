@@ -222,6 +222,23 @@ TEST(Fbx, GeometricTransformsAreNotPassedOn)
   EXPECT_LT(nearest, 1e-12);
 }
 
+TEST(Fbx, PartsHaveTheOrderOfTheirModels)
+{
+  FbxMaker maker;
+  const std::int64_t first = maker.model(0, "first");
+  maker.mesh(first);
+  maker.set(first, "GeometricTranslation", { 0.001, 0, 0 });
+  maker.mesh(maker.model(first, "child"));
+  maker.mesh(maker.model(0, "second"));
+  const auto model = readChecked(maker);
+  std::vector<std::string> names;
+  for (const dgtk::Part& part : model->parts)
+  {
+    names.push_back(part.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{ "first", "child", "second" }));
+}
+
 TEST(Fbx, NormalsAndTextureCoordinatesByCornerPointAndPolygon)
 {
   const auto modelOf = [](const FbxItem& normals, const FbxItem& uvs)
