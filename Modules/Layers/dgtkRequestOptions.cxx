@@ -16,7 +16,6 @@ namespace option
 {
 constexpr int mostSamples = 16;
 constexpr int mostThreads = 256;
-constexpr double leastStops = -33;
 
 const IntegerOption& samples()
 {
@@ -47,8 +46,8 @@ const ChoiceOption& renderer()
 
 const NumbersOption& exposure()
 {
-  static const NumbersOption row(
-    "exposure", "STOPS", 1, leastStops, "pictures: twice the light for each; what is above white is kept until then");
+  static const NumbersOption row("exposure", "STOPS", 1, -std::numeric_limits<double>::infinity(),
+    "pictures: twice the light for each, -32 to 32; what is above white is kept until then");
   return row;
 }
 

@@ -15,7 +15,7 @@ std::vector<double> gaussianWeights(double sigma, int radius)
   std::vector<double> weights;
   for (int i = -radius; i <= radius; ++i)
   {
-    weights.push_back(portable::exp(-0.5 * i * i / (sigma * sigma)));
+    weights.push_back(i == 0 ? 1 : portable::exp(-0.5 * i * i / (sigma * sigma)));
   }
   return weights;
 }

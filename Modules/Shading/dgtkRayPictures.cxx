@@ -124,6 +124,8 @@ private:
   void placeRays(const View& view);
   std::shared_ptr<const ShadedScene> shaded();
   void drawSamples(const PixelRect& rect, int samples, ColorBuffer& colors);
+  void fillBorder(const PixelRect& all, float* rgb);
+  void wrapAround(const PixelRect& all, float* rgb);
   std::shared_ptr<VisibilityBuffer> spareHits(const PixelRect& rect);
 
   ThreadPool& Pool;
@@ -226,6 +228,87 @@ void RayPictures::renderWanted(
   shadeHits(*this->shaded(), shown, this->Pool, colors.rgb.data());
 }
 
+/// Whether there are rays beyond the border.
+bool seesBeyond(const CameraModel& model)
+{
+  const auto sees = [&model](double x, double y) { return model.rayThrough({ x, y }).exists(); };
+  bool any = false;
+  for (int x = 0; x < model.width() && !any; ++x)
+  {
+    any = sees(x + 0.5, -0.5) || sees(x + 0.5, model.height() + 0.5);
+  }
+  for (int y = 0; y < model.height() && !any; ++y)
+  {
+    any = sees(-0.5, y + 0.5) || sees(model.width() + 0.5, y + 0.5);
+  }
+  return any;
+}
+
+/// The samples around the image of a camera that has no rays there: of a panorama those beyond its seam and its poles,
+/// of others the nearest.
+void RayPictures::fillBorder(const PixelRect& all, float* rgb)
+{
+  const CameraModel& model = *this->ShadedSamples->view().model;
+  const int left = std::max(all.x, 0);
+  const int top = std::max(all.y, 0);
+  const PixelRect in{ left, top, std::min(all.x + all.width, model.width()) - left,
+    std::min(all.y + all.height, model.height()) - top };
+  if (in == all || in.width <= 0 || in.height <= 0 || seesBeyond(model))
+  {
+    return;
+  }
+  const auto at = [&](int x, int y) { return rgb + 3 * (std::ptrdiff_t(y - all.y) * all.width + x - all.x); };
+  for (int y = all.y; y < all.y + all.height; ++y)
+  {
+    for (int x = all.x; x < all.x + all.width; ++x)
+    {
+      const int fromX = std::min(std::max(x, in.x), in.x + in.width - 1);
+      const int fromY = std::min(std::max(y, in.y), in.y + in.height - 1);
+      if (fromX != x || fromY != y)
+      {
+        std::copy_n(at(fromX, fromY), 3, at(x, y));
+      }
+    }
+  }
+  if (model.name() == "equirectangular")
+  {
+    this->wrapAround(all, rgb);
+  }
+}
+
+void RayPictures::wrapAround(const PixelRect& all, float* rgb)
+{
+  const int width = this->ShadedSamples->view().model->width();
+  const int height = this->ShadedSamples->view().model->height();
+  const int rows[4] = { all.y, std::max(all.y, 0), std::min(all.y + all.height, height), all.y + all.height };
+  VisibilityBuffer hits;
+  std::vector<float> part;
+  for (int k = 0; k < 3; ++k)
+  {
+    const bool over = k != 1; // the pole: rows go back on the other side
+    const int top = k == 0 ? 0 : k == 1 ? rows[1] : 2 * height - rows[3];
+    const int count = rows[k + 1] - rows[k];
+    for (int x = all.x, wide = 0; count > 0 && count <= height && x < all.x + all.width; x += wide)
+    {
+      const int from = ((x + (over ? width / 2 : 0)) % width + width) % width;
+      wide = std::min(all.x + all.width - x, width - from);
+      if (!over && from == x)
+      {
+        continue;
+      }
+      this->Rays->render({ from, top, wide, count }, hits);
+      part.resize(hits.hits.size() * 3);
+      shadeHits(*this->ShadedSamples, hits, this->Pool, part.data());
+      for (int y = 0; y < count; ++y)
+      {
+        const int row = rows[k] - all.y + (over ? count - 1 - y : y);
+        std::copy_n(
+          &part[std::size_t(3) * y * wide], 3 * wide, rgb + 3 * (std::ptrdiff_t(row) * all.width + x - all.x));
+      }
+    }
+  }
+}
+
 /// The samples are the pixels of a picture `samples` times as large.
 void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& colors)
 {
@@ -255,6 +338,7 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
       this->Rays->render(all, hits);
       rgb.resize(hits.hits.size() * 3);
       shadeHits(scene, hits, this->Pool, rgb.data());
+      this->fillBorder(all, rgb.data());
       filter.apply({ rgb.data(), 3 * std::ptrdiff_t(all.width), 3 }, piece, colors);
     }
   }

@@ -71,19 +71,19 @@ std::array<float, 2> reflectanceAt(const std::vector<float>& table, float nv, fl
 
 float fifthPower(float v) { return v * v * (v * v) * v; }
 
-/// Axes of the texture coordinates at a point, times a factor for both.
+/// Tangent and bitangent at a point, of unit length: where v is the same, and where it grows (Mikkelsen 2008).
 void textureFrame(const ShadedPoint& p, Float4& t, Float4& s)
 {
   const Float4 up = -p.down;
   const Float4 a = cross(up, p.normal);
   const Float4 b = cross(p.normal, p.right);
-  t = a * p.footprint.rightU - b * p.footprint.downU;
+  const float side = dot(cross(p.right, up), p.normal) < 0 ? -1.0F : 1.0F;
   s = a * p.footprint.rightV - b * p.footprint.downV;
-  const float size = std::max(dot(t, t), dot(s, s));
-  const float scale = size > 0 ? 1 / std::sqrt(size) : 0.0F;
-  const float side = dot(cross(p.right, up), p.normal) < 0 ? -scale : scale;
-  t *= side;
-  s *= side;
+  const float size = dot(s, s);
+  s *= size > 0 ? side / std::sqrt(size) : 0.0F;
+  t = cross(s, p.normal);
+  const float along = side * dot(t, a * p.footprint.rightU - b * p.footprint.downU);
+  t *= along > 0 ? 1.0F : along < 0 ? -1.0F : 0.0F;
 }
 
 void turnByMap(ShadedPoint& p)

@@ -309,6 +309,29 @@ class ImageFormation(harness.Case):
         self.assertLess(abs(image[10:30, 10:30].mean() - n @ l), 4e-3)
         self.assertGreater(abs(n @ l - l[2]), 0.05)
 
+    def test_normal_maps_lie_on_unit_vectors_along_the_coordinates(self):
+        """Stretched, sheared (the tangent keeps v) and mirrored coordinates, and objects that are stretched."""
+        lamp = np.array([2.0, 1, 3]) / math.sqrt(14)
+        code = np.array([210, 90, 200])
+        pictures.write_png(self.path("normals.png"), np.broadcast_to(code, (4, 4, 3)).astype(np.uint8))
+        n = (code - 128.0) / 127
+        n /= np.linalg.norm(n)
+        rows = [((1, 0, 0, 4), (1, 1, 1), (1, 1)), ((20, 0, 0, 1), (1, 1, 1), (1, 1)), ((1, 0.7, 0, 1), (1, 1, 1), (1, 1)),
+                ((-1, 0, 0, 3), (1, 1, 1), (-1, 1)), ((1, 0, 0, 1), (1, -2, 1), (1, -1))]
+        objects, expected = [], []
+        for i, ((ux, uy, vx, vy), scale, (right, up)) in enumerate(rows):
+            corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            self.write(f"mapped{i}.obj", "".join(f"v {x} {y} 0\nvt {ux * x + uy * y} {vx * x + vy * y}\n" for x, y in corners) +
+                       "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n")
+            objects.append({"model": f"mapped{i}.obj", "position": [4 * i - 8, 0, 0], "scale": list(scale),
+                            "materials": {"*": {**BLACK, "diffuse": [1, 1, 1], "normalMap": "normals.png"}}})
+            expected.append(n * [right, up, 1] @ lamp)
+        scene = {"objects": objects, "cameras": [camera(100, 20, 4)],
+                 "lights": [{"kind": "directional", "position": lamp.tolist(), "target": [0, 0, 0]}]}
+        for renderer in ("ray", "vtk"):
+            got = encoded(self.picture(scene, "--renderer", renderer, name=renderer)[10, 10::20, 1].astype(float))
+            self.assertLess(np.abs(got - expected).max(), 1e-3, f"{renderer} {got} {expected}")
+
     def test_bumps_are_slopes_over_a_texel(self):
         """Of a picture that is magnified: what lies a texel to the right less what lies one to the left, over two."""
         heights = np.array([40, 40, 200, 200, 120, 40, 200, 120])
@@ -358,6 +381,13 @@ class ImageFormation(harness.Case):
             apart = share * rgba[..., :3] + (1 - share) * color[0, 0] - color
             self.assertLessEqual(np.abs(np.where((rgba[..., :3] == 255) & (apart < 0), 0, apart)).max(), 2, name)
             self.dgtk("verify", out)
+        # What exposure lifts above white is white behind the object.
+        dark = {**scene, "background": [0.9, 0.9, 0.9], "objects": [{"model": "disc.obj", "materials": {"*": {**BLACK, "emission": [0.2, 0.3, 0.1]}}}]}
+        out = self.render(dark, "--samples", 3, "--exposure", 1, layers="color,color_rgba", name="white")
+        color, rgba = (self.read(os.path.join(out, "c", layer, "000000.png")).astype(float) for layer in ("color", "color_rgba"))
+        self.assertEqual(color[0, 0].tolist(), [255] * 3)
+        self.assertLessEqual(np.abs(rgba[..., 3:] / 255 * (rgba[..., :3] - 255) + 255 - color).max(), 2)
+        self.dgtk("verify", out)
         # Edges that OpenGL rounds to the centres of pixels.
         scene["objects"][0].update(model="square.obj", position=[4 / 32 * 8.50005 - 1, 4 / 32 * 0.49995, 0])
         scene["cameras"][0]["K"] = [[32, 0, 24], [0, 32, 18], [0, 0, 1]]

@@ -230,6 +230,16 @@ class Noise(Case):
         self.render(scene, "broken", *options, "--resume")
         self.assert_same_files(whole, broken)
 
+    def test_beyond_an_image_circle_it_is_dark(self):
+        """What a point spread brings there too, where vignetting leaves nothing beyond 90 degrees."""
+        lens = {"name": "c", "model": "fisheye", "K": [[9, 0, 32], [0, 9, 32], [0, 0, 1]], "width": 64, "height": 64, "eye": [0, 0, 1],
+                "lookAt": [0, 0, 0], "sensor": linear(psf={"gaussian": 2}, vignetting={"cos4": 1})}
+        out = self.render(self.scene("a.json", [lens]), "circle", "--layers", "color,color_noisy")
+        seen = read_png(os.path.join(out, "c", "color", "000000.png"))[..., 0] > 0
+        self.assertTrue(not seen[0, 0] and seen[32, 32])
+        self.assertEqual(self.color(out, "c")[~seen].max(), 0)
+        self.assertGreater(self.color(out, "c")[32, 32].min(), 0.9)
+
     def test_seeds(self):
         cameras = [{"name": "a", "width": 64, "height": 48, "eye": [0, 0, 1], "lookAt": [0, 0, 0],
                     "sensor": linear(exposure=0.5, shotNoise=True)}]

@@ -196,21 +196,20 @@ bool parsePair(const std::vector<std::string>& names, Pair& pair)
 std::vector<Pair> pairsOf(
   const WorkPlan& plan, const Stage& stage, const std::optional<std::size_t>& own = std::nullopt)
 {
-  const std::vector<std::string> names = stage.cameraNames();
   std::vector<Pair> pairs;
-  std::set<std::size_t> cameras;
-  for (const Job& job : plan.jobs)
+  std::set<std::size_t> cameras; // each frame has all
+  for (auto job = plan.jobs.begin(); job != plan.jobs.end() && job->frame == plan.jobs.front().frame; ++job)
   {
-    cameras.insert(job.camera);
+    cameras.insert(job->camera);
   }
   const std::vector<std::string> texts = pairTexts(plan);
   if (texts.empty())
   {
-    for (const std::size_t from : cameras)
+    for (const std::size_t from : own ? std::set<std::size_t>{ *own } : cameras)
     {
       for (const std::size_t to : cameras)
       {
-        if (from != to && from == own.value_or(from))
+        if (from != to)
         {
           pairs.push_back({ from, to, 0 });
         }
@@ -218,6 +217,7 @@ std::vector<Pair> pairsOf(
     }
     return pairs;
   }
+  const std::vector<std::string> names = stage.cameraNames();
   std::set<std::tuple<std::size_t, std::size_t, int>> known;
   const std::string start = own ? names[*own] + ':' : std::string();
   for (const std::string& text : texts)
@@ -279,7 +279,6 @@ protected:
   LayerSpec valueSpec() const override { return positionSpec(); }
   std::vector<PairTarget> targets(const WorkPlan& plan, const Stage& stage, const Job& job) const override
   {
-    const std::vector<std::string> names = stage.cameraNames();
     std::vector<PairTarget> all;
     for (const Pair& pair : pairsOf(plan, stage, job.camera))
     {
@@ -291,7 +290,7 @@ protected:
       PairTarget target;
       target.camera = pair.to;
       target.frame = frame;
-      target.folder = "correspondence_" + names[pair.to] + stepText(pair.offset);
+      target.folder = "correspondence_" + stage.description().cameras[pair.to].name + stepText(pair.offset);
       all.push_back(target);
     }
     return all;

@@ -44,7 +44,7 @@ public:
     setup.fieldCosine = [model = context.view.model](int x, int y)
     {
       const Eigen::Vector3d d = model->rayThrough({ x + 0.5, y + 0.5 }).direction;
-      return d.isZero(0) ? 1.0 : std::max(0.0, d.z() / d.norm()); // beyond 90 degrees it is dark
+      return d.z() > 0 ? d.z() / d.norm() : 0.0; // beyond 90 degrees it is dark, as where there is no ray
     };
     this->Decodes = setup.parameters.response == ResponseCurve::Srgb;
     for (const LayerOutput& output : outputs)

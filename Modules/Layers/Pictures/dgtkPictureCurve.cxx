@@ -7,6 +7,7 @@
 #include "dgtkText.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dgtk
 {
@@ -25,9 +26,9 @@ PictureCurve::PictureCurve(const LayerRequest& request)
   const std::vector<double> stops = option::exposure().of(request.options);
   if (!stops.empty())
   {
-    if (stops[0] > mostStops)
+    if (std::abs(stops[0]) > mostStops)
     {
-      throw UsageError("exposure: expected at most " + shortest(mostStops) + " stops, found " + shortest(stops[0]));
+      throw UsageError("exposure: expected -32 to 32 stops, found " + shortest(stops[0]));
     }
     this->Factor = float(portable::pow(2, stops[0]));
   }

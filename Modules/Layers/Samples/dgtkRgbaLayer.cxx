@@ -55,7 +55,7 @@ class RgbaPass : public LayerPass
 public:
   explicit RgbaPass(const JobContext& context)
     : Curve(context.plan.request)
-    , Background(this->curved(context.state->background))
+    , Background(this->curved(context.state->background).cwiseMin(1))
     , Sampler(context.state, context.view, option::samples().of(context.plan.request.options),
         context.queries.makeSource(context.pool), context.pool)
   {

@@ -77,8 +77,20 @@ TEST(Quantise, LightAboveWhiteIsKeptForTheCurve)
     EXPECT_NEAR(double(filmic[i]), std::min(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)), 1e-5) << i;
   }
   EXPECT_NEAR(double(plain[3]), 2.5371, 1e-3);
-  EXPECT_THROW(curveOf("exposure", "33"), UsageError);
-  EXPECT_THROW(curveOf("exposure", "-40"), UsageError);
+  EXPECT_TRUE(curveOf("exposure", "32").changes());
+  EXPECT_TRUE(curveOf("exposure", "-32").changes());
+  for (const std::string wrong : { "33", "-33", "-32.5" })
+  {
+    try
+    {
+      curveOf("exposure", wrong);
+      ADD_FAILURE() << wrong;
+    }
+    catch (const UsageError& error)
+    {
+      EXPECT_EQ(error.what(), "exposure: expected -32 to 32 stops, found " + wrong);
+    }
+  }
 }
 
 TEST(Quantise, EightBitsAreTheRoundingOfSixteen)

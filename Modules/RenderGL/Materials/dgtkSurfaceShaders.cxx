@@ -20,12 +20,12 @@ mat3 dgtkTextureFrame(vec3 p, vec3 n, vec2 uv)
   vec2 uvUp = dFdy(uv);
   vec3 a = cross(up, n);
   vec3 b = cross(n, right);
-  vec3 t = a * uvRight.x + b * uvUp.x;
-  vec3 s = a * uvRight.y + b * uvUp.y;
-  float size = max(dot(t, t), dot(s, s));
-  float scale = size > 0.0 ? inversesqrt(size) : 0.0;
   float side = dot(cross(right, up), n) < 0.0 ? -1.0 : 1.0;
-  return mat3(t * (scale * side), s * (scale * side), n);
+  vec3 s = a * uvRight.y + b * uvUp.y;
+  float size = dot(s, s);
+  s *= size > 0.0 ? side * inversesqrt(size) : 0.0;
+  vec3 t = cross(s, n);
+  return mat3(t * sign(side * dot(t, a * uvRight.x + b * uvUp.x)), s, n);
 }
 )";
 

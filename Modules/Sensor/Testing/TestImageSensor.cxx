@@ -174,6 +174,8 @@ TEST(ImageSensor, PointSpreadsKeepLightAndHaveTheirShape)
   };
   setup.parameters.psf.gaussian = 2;
   EXPECT_THAT(moments(expose(setup, point)), testing::Pointwise(testing::DoubleNear(0.04), { 1.0, 4.0, 4.0 }));
+  setup.parameters.psf.gaussian = 1e-200;
+  EXPECT_THAT(moments(expose(setup, point)), testing::Pointwise(testing::DoubleNear(1e-6), { 1.0, 0.0, 0.0 }));
   setup.parameters.psf = {};
   setup.parameters.psf.disc = 5.3; // uniform over the disc and over the pixel
   const double variance = 5.3 * 5.3 / 4 + 1.0 / 12;

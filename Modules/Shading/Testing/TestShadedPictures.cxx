@@ -28,6 +28,35 @@ bool isCut(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::
   }
   return first < last;
 }
+
+/// Has rays through its image alone.
+class Framed final : public CameraModel
+{
+public:
+  Framed(int width, int height)
+    : CameraModel(width, height)
+  {
+  }
+  std::string name() const override { return "framed"; }
+  CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
+  {
+    const bool inside = pixel.x() >= 0 && pixel.x() <= this->width() && pixel.y() >= 0 && pixel.y() <= this->height();
+    const Eigen::Vector3d d(pixel.x() - this->width() / 2.0, pixel.y() - this->height() / 2.0, this->width());
+    return { Eigen::Vector3d::Zero(), inside ? d.normalized() : Eigen::Vector3d::Zero() };
+  }
+  bool project(const Eigen::Vector3d&, Eigen::Vector2d&) const override { return false; }
+};
+
+ColorBuffer filtered(const std::shared_ptr<const SceneState>& state, const View& view, PixelFilter filter, int samples)
+{
+  ThreadPool pool(2);
+  const auto source = makeRayPictures(pool);
+  source->setFilter(filter);
+  source->setScene(state, view);
+  ColorBuffer colors;
+  source->renderColor({ 0, 0, view.model->width(), view.model->height() }, samples, colors, nullptr);
+  return colors;
+}
 } // namespace
 
 TEST(ShadedPictures, PlaneUnderAPointLightThatFades)
@@ -386,4 +415,69 @@ TEST(ShadedPictures, LightAboveWhiteIsKept)
   state->lights.push_back(light);
   EXPECT_NEAR(draw(state, fromAbove()).at(80, 60), 7, 1e-5);
   EXPECT_NEAR(draw(state, fromAbove(), 2).at(80, 60), 7, 1e-5);
+}
+
+TEST(ShadedPictures, FiltersKeepAnEvenBackgroundWhereNoRayIsBesideTheImage)
+{
+  const auto state = SceneBuilder().state();
+  state->background = { 0.25, 0.5, 0.75 };
+  View view = fromAbove();
+  view.model = std::make_shared<Framed>(7, 5);
+  for (int filter = 0; filter < 5; ++filter)
+  {
+    const ColorBuffer colors = filtered(state, view, PixelFilter(filter), 2);
+    for (std::size_t i = 0; i < colors.rgb.size(); ++i)
+    {
+      ASSERT_NEAR(double(colors.rgb[i]), 0.25 * double(i % 3 + 1), 1e-6) << filter << ' ' << i;
+    }
+  }
+}
+
+TEST(ShadedPictures, FiltersOfAPanoramaGoOnBeyondItsSeamAndItsPoles)
+{
+  constexpr int width = 32;
+  constexpr int height = 16;
+  constexpr int samples = 2;
+  int margin = 0;
+  const std::vector<double> weights = pixelFilterWeights(PixelFilter::Lanczos, samples, margin);
+  for (const int side : { 1, -1 }) // above the ground, and below it
+  {
+    const auto state = ground(1000).state();
+    LightState light = lightAt(LightKind::Point, { 0.7, 2.0 * side, -0.4 });
+    light.attenuation = { 1, 0, 0.2 };
+    state->lights.push_back(light);
+    const Eigen::Vector3d eye(0, side, 0);
+    View view = fromAbove();
+    view.model = makeCamera("equirectangular", { width, height, std::nullopt });
+    view.camera_from_world = lookAtPose(eye, eye - Eigen::Vector3d::UnitZ(), { 0, 1, 0 });
+    const ColorBuffer colors = filtered(state, view, PixelFilter::Lanczos, samples);
+    const auto colorAt = [&](double x, double y)
+    {
+      const double right = (x / width - 0.5) * 2 * M_PI;
+      const double below = (y / height - 0.5) * M_PI;
+      const Eigen::Vector3d d(
+        std::cos(below) * std::sin(right), std::sin(below), std::cos(below) * std::cos(right)); // also beyond the pole
+      const Eigen::Vector3d turned = view.camera_from_world.rotation.transpose() * d;
+      const double far = (eye - side * turned / turned.y() - light.position).norm();
+      return 2 / far / (1 + 0.2 * far * far);
+    };
+    const int first = side > 0 ? height / 2 + margin + 1 : 0;
+    for (int y = first; y < first + height / 2 - margin - 1; ++y)
+    {
+      for (int x = 0; x < width; ++x)
+      {
+        double expected = 0;
+        for (std::size_t i = 0; i < weights.size() * weights.size(); ++i)
+        {
+          const std::size_t column = i % weights.size();
+          const std::size_t row = i / weights.size();
+          expected +=
+            weights[column] * weights[row] *
+            colorAt(x - margin + (double(column) + 0.5) / samples, y - margin + (double(row) + 0.5) / samples);
+        }
+        ASSERT_NEAR(double(colors.rgb[std::size_t(3) * (y * width + x)]), expected, 1e-5)
+          << side << ' ' << x << ' ' << y;
+      }
+    }
+  }
 }
