@@ -147,6 +147,7 @@ vtkDataArray* dgtkSnapshot::TraceCells()
     [&]
     {
       const dgtk::FrozenView& view = self.taken();
+      dgtk::requireMemory(this->GetWidth(), this->GetHeight(), sizeof(std::int64_t) + sizeof(dgtk::Hit));
       const auto cells = vtkSmartPointer<vtkTypeInt64Array>::New();
       cells->SetName("cells");
       cells->SetNumberOfValues(vtkIdType(this->GetWidth()) * this->GetHeight());
@@ -227,6 +228,7 @@ bool dgtkSnapshot::Correspond(dgtkSnapshot* other)
       }
       const dgtk::FrozenView& from = self.taken();
       const dgtk::FrozenView& to = other->Self->taken();
+      dgtk::requireMemory(this->GetWidth(), this->GetHeight(), 2 * sizeof(double) + 1 + sizeof(dgtk::Hit));
       const vtkIdType pixels = vtkIdType(this->GetWidth()) * this->GetHeight();
       const auto positions = vtkSmartPointer<vtkDoubleArray>::New();
       positions->SetNumberOfComponents(2);

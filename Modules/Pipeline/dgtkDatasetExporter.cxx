@@ -17,22 +17,26 @@ struct dgtkDatasetExporter::Internal
 {
   dgtk::ExportRequest request;
   dgtkBackgroundRun background;
-
-  void run(const std::atomic<bool>& cancel, const std::function<void(dgtkBackgroundRun::Report)>& report) const
-  {
-    dgtk::ExportCallbacks callbacks;
-    callbacks.cancel = &cancel;
-    callbacks.progress = [&](const dgtk::ExportProgress& one) { report({ one.done, one.total }); };
-    dgtk::withWayOut(
-      [&]
-      {
-        if (dgtk::exportDataset(this->request, callbacks).interrupted)
-        {
-          throw dgtk::MachineError(this->request.folder + ": interrupted; resume completes it");
-        }
-      });
-  }
 };
+
+namespace
+{
+void run(const dgtk::ExportRequest& request, const std::atomic<bool>& cancel,
+  const std::function<void(dgtkBackgroundRun::Report)>& report)
+{
+  dgtk::ExportCallbacks callbacks;
+  callbacks.cancel = &cancel;
+  callbacks.progress = [&](const dgtk::ExportProgress& one) { report({ one.done, one.total }); };
+  dgtk::withWayOut(
+    [&]
+    {
+      if (dgtk::exportDataset(request, callbacks).interrupted)
+      {
+        throw dgtk::MachineError(request.folder + ": interrupted; resume completes it");
+      }
+    });
+}
+} // namespace
 
 dgtkDatasetExporter::dgtkDatasetExporter()
   : Self(new Internal)
@@ -119,7 +123,7 @@ void dgtkDatasetExporter::SetReplace(bool replace)
 void dgtkDatasetExporter::Start()
 {
   this->Self->background.start(
-    [self = this->Self.get()](const auto& cancel, const auto& report) { self->run(cancel, report); });
+    [request = this->Self->request](const auto& cancel, const auto& report) { run(request, cancel, report); });
 }
 
 bool dgtkDatasetExporter::IsRunning() const { return this->Self->background.isRunning(); }

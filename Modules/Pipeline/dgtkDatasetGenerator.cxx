@@ -23,18 +23,8 @@ vtkStandardNewMacro(dgtkDatasetGenerator);
 
 namespace
 {
-/// The scene again, as its file is now.
-void requireSame(const dgtk::SceneDescription& loaded, const std::string& file)
-{
-  const dgtk::SceneDescription now = dgtk::readScene(file);
-  if (toJson(now, now.folder) != toJson(loaded, loaded.folder))
-  {
-    throw dgtk::InputError(file, "has changed since the scene was loaded");
-  }
-}
-} // namespace
-
-struct dgtkDatasetGenerator::Internal
+/// What is set, of which a run has a copy.
+struct Settings
 {
   dgtk::GeneratorRequest request;
   std::string layers;
@@ -44,13 +34,21 @@ struct dgtkDatasetGenerator::Internal
   std::shared_ptr<const dgtk::Stage> stage; ///< null: of a file
   std::string stageFile;                    ///< that the stage was loaded from
 
-  dgtkBackgroundRun background;
-
   dgtk::GeneratorRequest wholeRequest() const;
   void generate(const std::atomic<bool>& cancel, const std::function<void(dgtkBackgroundRun::Report)>& report) const;
 };
 
-dgtk::GeneratorRequest dgtkDatasetGenerator::Internal::wholeRequest() const
+/// The scene again, as its file is now.
+void requireSame(const dgtk::SceneDescription& loaded, const std::string& file)
+{
+  const dgtk::SceneDescription now = dgtk::readScene(file);
+  if (toJson(now, now.folder) != toJson(loaded, loaded.folder))
+  {
+    throw dgtk::InputError(file, "has changed since the scene was loaded");
+  }
+}
+
+dgtk::GeneratorRequest Settings::wholeRequest() const
 {
   if ((!this->stage && this->request.scene.empty()) || this->request.folder.empty())
   {
@@ -79,7 +77,7 @@ dgtk::GeneratorRequest dgtkDatasetGenerator::Internal::wholeRequest() const
   return whole;
 }
 
-void dgtkDatasetGenerator::Internal::generate(
+void Settings::generate(
   const std::atomic<bool>& cancel, const std::function<void(dgtkBackgroundRun::Report)>& report) const
 {
   dgtkScene::UseModelCache();
@@ -102,6 +100,12 @@ void dgtkDatasetGenerator::Internal::generate(
       }
     });
 }
+} // namespace
+
+struct dgtkDatasetGenerator::Internal : Settings
+{
+  dgtkBackgroundRun background;
+};
 
 dgtkDatasetGenerator::dgtkDatasetGenerator()
   : Self(new Internal)
@@ -206,7 +210,7 @@ void dgtkDatasetGenerator::SetReplace(bool replace)
 void dgtkDatasetGenerator::Start()
 {
   this->Self->background.start(
-    [self = this->Self.get()](const auto& cancel, const auto& report) { self->generate(cancel, report); });
+    [settings = Settings(*this->Self)](const auto& cancel, const auto& report) { settings.generate(cancel, report); });
 }
 
 bool dgtkDatasetGenerator::IsRunning() const { return this->Self->background.isRunning(); }

@@ -82,7 +82,7 @@ public:
 
   /**
    * Starts the run. It is over when IsRunning() is false; GetErrorMessage() then says how it went. Nothing happens
-   * while another one is running.
+   * while another one is running. What is set meanwhile counts for the next one.
    */
   void Start();
   /**

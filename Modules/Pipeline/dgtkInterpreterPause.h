@@ -9,6 +9,7 @@ namespace dgtk
 
 /// While it lives, the lock of the Python interpreter that calls is free, so that its other threads run. Elsewhere it
 /// does nothing. VTK's objects are used under the lock: nothing that lives while it does may touch one that others see.
+/// An interpreter that ends waits for those of its threads, which end nowhere then: they stop.
 class DGTKPIPELINE_EXPORT InterpreterPause
 {
 public:

@@ -155,6 +155,7 @@ pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
         self.assertEqual(cloud["triangle"].tolist(), [point["triangle"] for point in document["points"]])
         self.assertEqual([track.tolist() for track in cloud["track"]], [point["track"] for point in document["points"]])
         numpy.testing.assert_allclose(numpy.linalg.norm(cloud["normal"], axis=1), 1, atol=1e-6)
+        self.assertEqual(list(cloud), ["x", "normal", "color", "object", "triangle", "frame", "cameras", "track"])
 
     def test_pairs_lead_where_they_are_asked_to(self):
         import dgtk
@@ -179,6 +180,14 @@ pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
             array = dgtk.render(scene, "color", camera=name, frame=2, size=(64, 48), samples=2)
             numpy.testing.assert_array_equal(file, array)
             self.assertGreater(len(numpy.unique(array)), 20)
+
+    def test_names_of_what_is_not_there(self):
+        import dgtk
+
+        scene = dgtk.load(DEMO)
+        for count, name in ((scene.GetNumberOfCameras(), scene.GetCameraName), (scene.GetNumberOfObjects(), scene.GetObjectName)):
+            self.assertTrue(name(count - 1))
+            self.assertEqual((name(-1), name(count)), ("", ""))
 
     def test_another_camera_that_cannot_be_drawn(self):
         """Only the picture that is asked for is drawn, or has a matrix."""

@@ -91,6 +91,8 @@ class Scenes(Case):
         numbers["objects"][0].update(position=numpy.array([0, 0.5, 0], numpy.float32), scale=numpy.full(3, 2), visible=numpy.bool_(True))
         numbers["cameras"][0].update(eye=(0, numpy.int64(3), numpy.float64(4)))
         self.assertEqual(dgtk.scene(plain).description(), dgtk.scene(numbers).description())
+        numbers["objects"][0].update(position=numpy.array([0, 0.5, 0], numpy.longdouble), scale=[numpy.longdouble(2)] * 3)
+        self.assertEqual(dgtk.scene(plain).description(), dgtk.scene(numbers).description())
 
     def test_refusals_name_the_value(self):
         def changed(change):
@@ -102,6 +104,7 @@ class Scenes(Case):
                 (lambda d: d["objects"][0].update(position=[0, math.nan, 0]), r"scene: objects\[0\].position\[1\] is out of range .expected a finite number, found nan"),
                 (lambda d: d["cameras"][0].update(eye=numpy.array([0, numpy.inf, 0])), r"scene: cameras\[0\].eye\[1\] is out of range .expected a finite number, found inf"),
                 (lambda d: d.update(fps=10**400), r"scene: fps is out of range .expected a finite number, found 1000"),
+                (lambda d: d.update(fps=numpy.longdouble("1e4000")), r"scene: fps is out of range .expected a finite number, found inf"),
                 (lambda d: d["objects"][0].update(position=1 + 2j), r"scene: objects\[0\].position has the wrong type .expected a number, .*found an object of complex"),
                 (lambda d: d["objects"][0].update(position={1, 2}), r"scene: objects\[0\].position has the wrong type .expected a number, .*found {1, 2}"),
                 (lambda d: d["objects"][0].update(position=None), r"scene: objects\[0\].position"),
@@ -159,6 +162,14 @@ class Scenes(Case):
         self.assertLess({"K", "R", "t"}, set(dgtk.render(scene, "calibration", frame=3)))
         self.assertEqual(set(dgtk.render(scene, "calibration", camera="flat", frame=3)), {"thesis_K", "thesis_Rt", "viewport"})
 
+    def test_points_that_nobody_sees(self):
+        scene = square()
+        scene["cameras"][0]["lookAt"] = [0, 6, 8]
+        cloud = dgtk.render(dgtk.scene(scene), "points", size=SIZE)
+        self.assertEqual({name: len(cloud[name]) for name in ("x", "normal", "color", "object", "triangle", "track")},
+                         dict.fromkeys(("x", "normal", "color", "object", "triangle", "track"), 0))
+        self.assertEqual((len(cloud), cloud["frame"], cloud["cameras"]), (8, 0, ["above"]))
+
     def test_a_scene_can_be_pickled(self):
         again = pickle.loads(pickle.dumps(dgtk.load(DEMO)))
         self.assertEqual(type(again), dgtk.Scene)
@@ -176,6 +187,8 @@ class Scenes(Case):
 
     def test_an_empty_scene_and_an_empty_dict(self):
         self.assertEqual(dgtk.Scene().description(), {})
+        again = pickle.loads(pickle.dumps(dgtk.Scene()))
+        self.assertEqual((type(again), again.description(), again.folder), (dgtk.Scene, {}, ""))
         with self.assertRaisesRegex(ValueError, "no scene is set"):
             dgtk.render(dgtk.Scene(), "depth")
         with self.assertRaisesRegex(ValueError, "no scene is set"):
@@ -224,6 +237,23 @@ class Datasets(Case):
         self.dgtk("render", DEMO, "-o", self.path("command"), "--quiet", "--size", "32x24")
         dgtk.generate(os.path.join(SCENES, "demo.json"), self.path("python"), size=(32, 24))
         self.assert_same_files(self.path("command"), self.path("python"))
+
+    def test_frames_of_a_range(self):
+        for frames, numbers in ((dgtk.load(DEMO).frames, (0, 2)), (range(0, 4, 2), (0, 2, 2))):
+            for name, given in (("range", frames), ("numbers", numbers)):
+                dgtk.generate(DEMO, self.path(name), "objects", given, "left", (8, 6), replace=os.path.exists(self.path(name)))
+            self.assert_same_files(self.path("range"), self.path("numbers"))
+
+    def test_progress_that_is_empty_is_called(self):
+        class Reports(list):
+            def __call__(self, *report):
+                self.append(report)
+
+            def __bool__(self):
+                return False
+        reports = Reports()
+        self.by_python("out", layers="objects", progress=reports)
+        self.assertEqual((reports[0], reports[-1]), ((0, 6), (6, 6)))
 
     def test_a_folder_of_scenes(self):
         """As the command, to the byte; progress counts scenes, and what it raises ends the run."""
@@ -339,6 +369,8 @@ except KeyboardInterrupt:
                 ({"frames": (2, 1)}, ValueError, "frames: expected an integer, .first, last. or"),
                 ({"frames": 77}, ValueError, "the scene has frames 0 to 2, found 77"),
                 ({"frames": "all"}, ValueError, "frames: expected"),
+                ({"frames": range(0)}, ValueError, "frames: expected an integer, .first, last. or .* or a range, found an object of range"),
+                ({"frames": range(2, -1, -1)}, ValueError, "frames: expected"),
                 ({"size": (0, 5)}, ValueError, "size: expected"),
                 ({"progress": 3}, ValueError, "progress: expected something to call, found 3"),
                 ({"resume": 1}, ValueError, "resume: expected True or False"),
@@ -357,6 +389,9 @@ except KeyboardInterrupt:
                 self.assertNotIn("--", str(caught.exception))
                 self.assertNotIn("\n", str(caught.exception))
         self.assertEqual(os.listdir(self.folder), ["file"])
+        for long in (10**5000, [-10**5000]):
+            with self.assertRaisesRegex(ValueError, r"\Asamples: expected a number of fewer digits, found a number of too many digits\Z"):
+                dgtk.generate(DEMO, self.path("out"), samples=long)
 
 
 class Stubs(Case):

@@ -6,12 +6,13 @@ import math
 import os
 import pickle
 import random
+import subprocess
 import threading
 import time
 
 import numpy
 from harness import Case, main, measures
-from python_package import DEMO, OF_VTK, SIZE, dgtk, square
+from python_package import DEMO, OF_VTK, PACKAGES, SIZE, dgtk, square
 
 
 class Threads(Case):
@@ -63,6 +64,59 @@ class Threads(Case):
         for thread in threads:
             thread.join()
         self.assertEqual(found, [True] * 20)
+
+    def test_a_renderer_inside_its_own_use(self):
+        """As a signal handler does that interrupts a picture: it is refused, and the picture is drawn."""
+        scene, kept, told = dgtk.scene(square()), dgtk.dgtkRenderer(), []
+
+        class Interrupting(int):
+            def __str__(self):
+                try:
+                    dgtk.render(scene, "objects", size=SIZE, keep=kept)
+                except RuntimeError as error:
+                    told.append(str(error))
+                return "1"
+        thread = threading.Thread(target=lambda: told.append(dgtk.render(scene, "objects", size=SIZE, keep=kept, samples=Interrupting())), daemon=True)
+        thread.start()
+        thread.join(60)
+        self.assertFalse(thread.is_alive(), "it waits for itself")
+        self.assertEqual(len(told), 2)
+        self.assertRegex(told[0], r"\Athe dgtkRenderer is in use by this thread already")
+        numpy.testing.assert_array_equal(told[1], dgtk.render(scene, "objects", size=SIZE, keep=kept))
+
+    def ends(self, program, *arguments):
+        done = subprocess.run(["/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {PACKAGES!r})\n" + program, *arguments],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (3, "", ""))
+
+    def test_a_script_that_ends_while_a_daemon_thread_renders(self):
+        for layer in ("depth", "color", "color"):  # the threads that draw are where chance has them
+            self.ends("""
+import sys, threading, dgtk
+scene, began = dgtk.load(sys.argv[1]), threading.Event()
+def ahead():
+    while True:
+        dgtk.render(scene, sys.argv[2], size=(160, 120), samples=4)
+        began.set()
+threading.Thread(target=ahead, daemon=True).start()
+began.wait()
+sys.exit(3)
+""", DEMO, layer)
+
+    def test_a_fork_has_no_threads_to_wait_for(self):
+        self.ends("""
+import json, os, sys, threading, dgtk
+sampler, began = dgtk.dgtkSceneSampler(), threading.Event()
+sampler.LoadText(json.dumps({"lights": [{"name": f"l{i}", "intensity": {"uniform": [2, 4]}} for i in range(3000)]}), ".")
+def ahead():
+    while True:
+        sampler.Draw(0, ".")
+        began.set()
+threading.Thread(target=ahead, daemon=True).start()
+began.wait()
+child = os.fork()
+sys.exit(3 if child == 0 else os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+""")
 
     def test_pictures_while_a_dataset_is_made(self):
         scene = dgtk.load(DEMO)

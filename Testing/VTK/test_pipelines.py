@@ -95,7 +95,22 @@ class Pipelines(unittest.TestCase):
             picture = textured.GetTexture().GetInput()
             picture.GetPointData().GetScalars().Fill(90)
             picture.GetPointData().GetScalars().Modified()
-        for name, renderer, change in (("point of a block", blocks, move_a_point),
+        following, faced = vtk.vtkFollower(), vtk.vtkCamera()
+        following.SetMapper(scenes.actor(vtk.vtkCubeSource()).GetMapper())
+        faced.SetPosition(1, 1, 4)
+        following.SetCamera(faced)
+        mapped, table = scenes.actor(vtk.vtkPlaneSource()), vtk.vtkLookupTable()
+        mapped.SetTexture(scenes.picture())
+        mapped.GetTexture().SetLookupTable(table)
+        mapped.GetTexture().SetColorModeToMapScalars()
+        table.Build()
+        through, lens, model = scenes.renderer(scenes.actor(vtk.vtkCubeSource()), eye=(1, 1, 3)), vtk.vtkTransform(), vtk.vtkMatrix4x4()
+        through.GetActiveCamera().SetUserTransform(lens)
+        through.GetActiveCamera().SetModelTransformMatrix(model)
+        for name, renderer, change in (("camera of a follower", scenes.renderer(following, eye=(0, 0, 5)), lambda: faced.SetPosition(3, 1, 2)),
+                                       ("table of a texture", scenes.renderer(mapped, eye=(0, 0, 3)), lambda: table.SetHueRange(0.2, 0.3) or table.Build()),
+                                       ("transform of a camera", through, lambda: lens.Scale(2, 1, 1)),
+                                       ("model transform of a camera", through, lambda: model.SetElement(0, 3, 0.3)), ("point of a block", blocks, move_a_point),
                                        ("colour of a block", blocks, lambda: attributes.SetBlockColor(data.GetBlock(0), (1, 0, 0))),
                                        ("shape of a glyph", glyphs, lambda: shape.SetRadius(0.9)),
                                        ("picture", scenes.renderer(textured, eye=(0, 0, 3)), paint),

@@ -404,7 +404,7 @@ class Refused(unittest.TestCase):
     def test_what_cannot_be_honoured(self):
         edges = scenes.actor(vtk.vtkCubeSource())
         edges.GetProperty().EdgeVisibilityOn()
-        self.assertEqual(len(self.refused(edges, "visible edges").props), 2)
+        self.assertEqual(len(self.refused(edges, "actor-2: visible edges").props), 2)
         back = scenes.actor(vtk.vtkCubeSource())
         back.SetBackfaceProperty(vtk.vtkProperty())
         self.refused(back, "back faces")
@@ -417,7 +417,7 @@ class Refused(unittest.TestCase):
     def test_pictures_that_cannot_be_honoured(self):
         for words, change in (("a gradient background", lambda r: r.GradientBackgroundOn()), ("image based lighting", lambda r: r.UseImageBasedLightingOn()),
                               ("ambient occlusion of screen space", lambda r: r.UseSSAOOn()),
-                              ("a render pass", lambda r: r.SetPass(vtk.vtkSSAOPass()))):
+                              ("a render pass", lambda r: r.SetPass(vtk.vtkSSAOPass())), ("a renderer that does not draw", lambda r: r.DrawOff())):
             renderer = scenes.quad_sphere()
             change(renderer)
             with self.assertRaisesRegex(ValueError, words):

@@ -13,14 +13,17 @@
 #include <vtkCompositeDataSet.h>
 #include <vtkCompositePolyDataMapper2.h>
 #include <vtkDataObjectTreeRange.h>
+#include <vtkFollower.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkMapper.h>
+#include <vtkMatrix4x4.h>
 #include <vtkPlane.h>
 #include <vtkPlaneCollection.h>
 #include <vtkProp.h>
 #include <vtkPropCollection.h>
 #include <vtkProperty.h>
+#include <vtkScalarsToColors.h>
 #include <vtkTexture.h>
 #include <vtkTransform.h>
 
@@ -77,13 +80,14 @@ vtkDataArray* ViewOutputs::find(const char* name) const
 ViewOutputs outputsOf(const ViewRequest& request)
 {
   std::vector<std::string> names = splitNames(request.layers, "layers");
-  const std::string first = names.front();
-  const auto cells = std::find(names.begin(), names.end(), cellsLayer);
-  const bool wantsCells = request.renderer && cells != names.end();
-  if (wantsCells)
+  if (names.empty())
   {
-    names.erase(cells);
+    throw UsageError("no layers are set");
   }
+  const std::string first = names.front();
+  const auto cells = request.renderer ? std::remove(names.begin(), names.end(), cellsLayer) : names.end();
+  const bool wantsCells = cells != names.end();
+  names.erase(cells, names.end());
   ViewOutputs to;
   vtkSmartPointer<dgtkScene> scene = request.scene;
   if (request.renderer)
@@ -140,6 +144,15 @@ vtkMTimeType timeOf(vtkDataObject& data)
   return latest;
 }
 
+vtkMTimeType timeOf(vtkObject* object) { return object != nullptr ? object->GetMTime() : 0; }
+
+/// With what its own time leaves out.
+vtkMTimeType timeOfCamera(vtkCamera& camera)
+{
+  return std::max({ camera.GetMTime(), timeOf(camera.GetUserTransform()), timeOf(camera.GetModelTransformMatrix()),
+    timeOf(camera.GetExplicitProjectionTransformMatrix()) });
+}
+
 /// Of all that an algorithm is given, brought up to date.
 vtkMTimeType timeOfInputs(vtkAlgorithm& algorithm)
 {
@@ -158,12 +171,11 @@ vtkMTimeType timeOfInputs(vtkAlgorithm& algorithm)
 
 vtkMTimeType timeOfTexture(vtkTexture& texture)
 {
-  const vtkMTimeType inputs = timeOfInputs(texture);
-  return texture.GetTransform() != nullptr ? std::max(inputs, texture.GetTransform()->GetMTime()) : inputs;
+  return std::max({ timeOfInputs(texture), timeOf(texture.GetTransform()), timeOf(texture.GetLookupTable()) });
 }
 
-/// Of what an actor's own time leaves out: all inputs of its mapper, its textures' pictures, planes, and attributes of
-/// blocks.
+/// Of what an actor's own time leaves out: all inputs of its mapper, its textures' pictures, planes, attributes of
+/// blocks, and the camera that a follower faces.
 vtkMTimeType timeOfParts(vtkActor& actor)
 {
   vtkMapper& mapper = *actor.GetMapper();
@@ -175,6 +187,10 @@ vtkMTimeType timeOfParts(vtkActor& actor)
   for (const auto& named : actor.GetProperty()->GetAllTextures())
   {
     latest = named.second != nullptr ? std::max(latest, timeOfTexture(*named.second)) : latest;
+  }
+  if (auto* const follower = vtkFollower::SafeDownCast(&actor))
+  {
+    latest = std::max(latest, timeOf(follower->GetCamera()));
   }
   vtkPlaneCollection* const planes = mapper.GetClippingPlanes();
   for (int i = 0; planes != nullptr && i < planes->GetNumberOfItems(); ++i)
@@ -195,13 +211,13 @@ vtkMTimeType modifiedTime(vtkRenderer& renderer)
   vtkMTimeType latest = renderer.GetMTime();
   if (renderer.IsActiveCameraCreated() != 0)
   {
-    latest = std::max(latest, renderer.GetActiveCamera()->GetMTime());
+    latest = std::max(latest, timeOfCamera(*renderer.GetActiveCamera()));
   }
   vtkCollectionSimpleIterator at = nullptr;
   renderer.GetLights()->InitTraversal(at);
   while (vtkLight* const light = renderer.GetLights()->GetNextLight(at))
   {
-    latest = std::max(latest, light->GetMTime());
+    latest = std::max({ latest, light->GetMTime(), timeOf(light->GetTransformMatrix()) });
   }
   renderer.GetViewProps()->InitTraversal(at);
   while (vtkProp* const prop = renderer.GetViewProps()->GetNextProp(at))

@@ -11,8 +11,11 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 #include <vtkTexture.h>
@@ -55,19 +58,19 @@ PieceColors colorsOf(vtkProperty& property, const SurfacePiece& piece)
   return { vectorOf(property.GetAmbientColor()), vectorOf(property.GetDiffuseColor()) };
 }
 
-void refuseTexture(vtkTexture& texture, const Image& image, const std::string& what, Unsupported& unsupported)
+void refuseTexture(vtkTexture& texture, const Image& image, Unsupported& unsupported)
 {
   if (texture.GetRepeat() == 0 && texture.GetWrap() == vtkTexture::ClampToBorder)
   {
-    unsupported.add(what + ": a texture that has a border around itself");
+    unsupported.add("a texture that has a border around itself");
   }
   if (image.hasAlpha && texture.GetPremultipliedAlpha())
   {
-    unsupported.add(what + ": a texture whose colours are multiplied by its alpha");
+    unsupported.add("a texture whose colours are multiplied by its alpha");
   }
 }
 
-int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsupported& unsupported)
+int addTexture(vtkTexture& texture, Model& model, Unsupported& unsupported)
 {
   texture.Update();
   vtkImageData* const input = texture.GetInput();
@@ -90,10 +93,10 @@ int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsup
   }
   if (!image)
   {
-    unsupported.add(what + ": a texture that is no picture of bytes");
+    unsupported.add("a texture that is no picture of bytes");
     return -1;
   }
-  refuseTexture(texture, *image, what, unsupported);
+  refuseTexture(texture, *image, unsupported);
   Texture made;
   made.name = "texture-" + std::to_string(model.textures.size() + 1);
   made.image = image;
@@ -184,11 +187,9 @@ bool followTexture(vtkPolyData& data)
 class PhysicalSurface
 {
 public:
-  PhysicalSurface(
-    vtkProperty& property, vtkPolyData& data, const std::string& name, Model& model, Unsupported& unsupported)
+  PhysicalSurface(vtkProperty& property, vtkPolyData& data, Model& model, Unsupported& unsupported)
     : Property(property)
     , Data(data)
-    , Name(name)
     , ToModel(model)
     , Out(unsupported)
   {
@@ -219,7 +220,7 @@ private:
   {
     if (there)
     {
-      this->Out.add(this->Name + ": " + what + " of its physically based property");
+      this->Out.add(what + " of its physically based property");
     }
   }
 
@@ -232,7 +233,7 @@ private:
     }
     this->refuse(!known, "the texture " + kind);
     this->refuse(known && texture.GetTransform() != nullptr, "a transform of the texture " + kind);
-    const int index = known ? addTexture(texture, this->ToModel, this->Name, this->Out) : -1;
+    const int index = known ? addTexture(texture, this->ToModel, this->Out) : -1;
     if (index < 0)
     {
       return;
@@ -294,7 +295,6 @@ private:
 
   vtkProperty& Property;
   vtkPolyData& Data;
-  const std::string& Name;
   Model& ToModel;
   Unsupported& Out;
 };
@@ -322,6 +322,16 @@ std::uint8_t byteAt(vtkDataArray& scalars, vtkIdType tuple, int component)
 bool isPhysical(vtkActor& actor, bool lit)
 {
   return lit && actor.GetProperty()->GetLighting() && actor.GetProperty()->GetInterpolation() == VTK_PBR;
+}
+
+std::string changeOfCoordinates(vtkActor& actor)
+{
+  auto* const mapper = vtkPolyDataMapper::SafeDownCast(actor.GetMapper());
+  vtkInformation* const keys = actor.GetPropertyKeys();
+  return mapper != nullptr && (mapper->GetSeamlessU() || mapper->GetSeamlessV()) ? "seamless texture coordinates"
+         : keys != nullptr && keys->Has(vtkProp::GeneralTextureTransform()) != 0
+           ? "a transform of texture coordinates among its property keys"
+           : "";
 }
 
 void toDisplay(std::array<std::uint8_t, 4>& color)
@@ -379,11 +389,11 @@ Material actorMaterial(
 {
   vtkProperty& property = *actor.GetProperty();
   const PieceColors colors = colorsOf(property, piece);
-  const auto refuse = [&](bool there, const char* what)
+  const auto refuse = [&](bool there, const std::string& what)
   {
     if (there)
     {
-      unsupported.add(name + ": " + what);
+      unsupported.add(what);
     }
   };
   Material material;
@@ -399,7 +409,7 @@ Material actorMaterial(
     material.shininess = property.GetSpecularPower();
     if (isPhysical(actor, lit))
     {
-      PhysicalSurface(property, *piece.data, name, model, unsupported).set(material);
+      PhysicalSurface(property, *piece.data, model, unsupported).set(material);
     }
   }
   else
@@ -411,7 +421,7 @@ Material actorMaterial(
   const bool hasCoordinates = piece.data->GetPointData()->GetTCoords() != nullptr;
   if (vtkTexture* const texture = actor.GetTexture(); texture != nullptr && hasCoordinates && !material.physical)
   {
-    if (material.texture = addTexture(*texture, model, name, unsupported); material.texture >= 0)
+    if (material.texture = addTexture(*texture, model, unsupported); material.texture >= 0)
     {
       Texture& made = model.textures[std::size_t(material.texture)];
       material.cutOut = made.image->hasAlpha;
@@ -422,11 +432,15 @@ Material actorMaterial(
   {
     static const std::set<std::string> ofPhysical{ "albedoTex", "materialTex", "normalTex", "emissiveTex",
       "anisotropyTex", "coatNormalTex" }; // which VTK leaves out of other surfaces
-    refuse(hasCoordinates && !material.physical && ofPhysical.count(kind) == 0,
-      ("the texture " + kind + " of its property").c_str());
+    refuse(
+      hasCoordinates && !material.physical && ofPhysical.count(kind) == 0, "the texture " + kind + " of its property");
   }
   refuse(actor.GetTexture() != nullptr && !material.physical && piece.colorMapAt != nullptr,
     "a texture beside scalars that are interpolated before they are mapped");
+  const std::string change = changeOfCoordinates(actor);
+  refuse(!change.empty() &&
+           (material.texture >= 0 || (material.physical && hasCoordinates && !property.GetAllTextures().empty())),
+    change);
   refuse(actor.GetForceOpaque() && material.opacity < 1, "an opacity below 1 of what is forced to be opaque");
   refuse(actor.GetShaderProperty()->GetNumberOfShaderReplacements() > 0, "replaced shaders");
   refuse(property.GetEdgeVisibility() != 0, "visible edges");

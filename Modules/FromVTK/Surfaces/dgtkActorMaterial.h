@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 class vtkActor;
 class vtkImageData;
@@ -27,6 +28,9 @@ Material actorMaterial(vtkActor& actor, const SurfacePiece& piece, bool lit, con
 
 /// Whether a surface is lit as VTK's physically based kind.
 bool isPhysical(vtkActor& actor, bool lit);
+
+/// What VTK does to an actor's texture coordinates beside the transform of its texture; empty: nothing.
+std::string changeOfCoordinates(vtkActor& actor);
 
 /// The colours of scalars on such a surface, which VTK takes as linear, as ours are.
 void toDisplay(std::array<std::uint8_t, 4>& color);

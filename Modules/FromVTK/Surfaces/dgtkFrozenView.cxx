@@ -87,6 +87,15 @@ Placement placementOf(const Affine3& world)
   return place;
 }
 
+/// Whether VTK draws polygons of one mapper nearer or farther than those of others.
+bool hasOffset(vtkMapper& mapper)
+{
+  double factor = 0;
+  double units = 0;
+  mapper.GetRelativeCoincidentTopologyPolygonOffsetParameters(factor, units);
+  return vtkMapper::GetResolveCoincidentTopology() == VTK_RESOLVE_POLYGON_OFFSET && (factor != 0 || units != 0);
+}
+
 class Freezer
 {
 public:
@@ -148,11 +157,15 @@ private:
       surfaceKey(*actor.actor, drawn.pieces, style, copies), [&] { return make(*actor.actor, drawn.pieces, style); });
     for (const std::string& line : surface->left.lines())
     {
-      this->Out.add(line);
+      this->Out.add(actor.name + ": " + line);
     }
     if (surface->model->triangles.empty())
     {
       return;
+    }
+    if (hasOffset(*actor.actor->GetMapper()))
+    {
+      this->Out.add(actor.name + ": a relative offset of its polygons, which decides between coincident ones");
     }
     FrozenActor frozen;
     frozen.actor = actor.actor;
@@ -193,7 +206,8 @@ private:
       { this->Renderer.GetTexturedBackground(), "a textured background" },
       { this->Renderer.GetUseImageBasedLighting(), "image based lighting" },
       { this->Renderer.GetUseSSAO(), "ambient occlusion of screen space" },
-      { this->Renderer.GetPass() != nullptr, "a render pass" } };
+      { this->Renderer.GetPass() != nullptr, "a render pass" },
+      { this->Renderer.GetDraw() == 0, "a renderer that does not draw" } };
     for (const auto& [there, what] : parts)
     {
       if (there)

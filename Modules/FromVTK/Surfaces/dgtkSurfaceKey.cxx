@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSurfaceKey.h"
 
+#include "dgtkActorMaterial.h"
 #include "dgtkSurfaceModel.h"
 #include "dgtkSurfacePieces.h"
 
@@ -21,6 +22,7 @@
 #include <xxhash.h>
 
 #include <cstddef>
+#include <string>
 #include <type_traits>
 
 namespace dgtk
@@ -166,6 +168,8 @@ SurfaceKey surfaceKey(vtkActor& actor, const std::vector<SurfacePiece>& pieces, 
   maker.add(actor.GetForceOpaque());
   maker.add(actor.GetShaderProperty()->GetNumberOfShaderReplacements());
   maker.add(actor.GetTexture());
+  const std::string change = changeOfCoordinates(actor);
+  maker.add(change.data(), change.size());
   for (const auto& [name, texture] : property.GetAllTextures())
   {
     maker.add(texture);

@@ -17,8 +17,9 @@ def found(value):
     if value is None or isinstance(value, (bool, int, float, str, bytes, list, tuple, dict, set)):
         try:
             return " ".join(reprlib.repr(value).split())
-        except Exception:  # of an element's own making, or a number of too many digits
-            pass
+        except Exception:  # of an element's own making
+            if isinstance(value, int):
+                return "a number of too many digits"
     return "an object of " + type(value).__name__
 
 
@@ -112,7 +113,10 @@ def _word(name, value):
     if isinstance(value, str):
         return text(name, value) if value else value
     if isinstance(value, (int, float, numpy.integer, numpy.floating)):
-        return str(value)
+        try:
+            return str(value)
+        except ValueError:
+            fail(name, "a number of fewer digits", value)
     return fail(name, "a number, a name, a list of them, or True or False", value)
 
 

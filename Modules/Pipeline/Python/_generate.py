@@ -14,13 +14,15 @@ _PATIENCE = 100  # milliseconds until an interrupt is noticed
 
 def frames_of(value):
     """first, last, step."""
+    if isinstance(value, range) and value:
+        value = value[0], value[-1], value.step
     numbers = list(value) if isinstance(value, (list, tuple)) else [value]
     try:
         first, last, step = [_check.integer("frames", one) for one in (numbers + numbers[:1] if len(numbers) == 1 else numbers) + [1] * (len(numbers) < 3)]
     except ValueError:
         first, last, step = 0, -1, 0
     if last < first or step < 1:
-        _check.fail("frames", "an integer, (first, last) or (first, last, step) with first <= last and step >= 1", value)
+        _check.fail("frames", "an integer, (first, last) or (first, last, step) with first <= last and step >= 1, or a range", value)
     return first, last, step
 
 
@@ -29,7 +31,7 @@ def wait_for(generator, progress):
     try:
         generator.Start()
         while generator.IsRunning():
-            if generator.Wait(_PATIENCE) and progress:
+            if generator.Wait(_PATIENCE) and progress is not None:
                 progress(generator.GetDone(), generator.GetTotal())
     except BaseException:
         generator.Cancel()
@@ -63,7 +65,7 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     scene.json, and its model files are read again; a Snapshot is in the dataset with its models and textures, as the scene
     that its save() writes is with pack=True. Each scene of a folder becomes a dataset in folder/<its name>; progress counts
     scenes then, and the manifest names the datasets. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
-    integer, (first, last) or (first, last, step), both ends included; default: all. cameras: a name or a list of names;
+    integer, (first, last) or (first, last, step), both ends included, or a range; default: all. cameras: a name or a list of names;
     default: all. size: (width, height) in pixels; default: each camera's own, else 640 x 480. progress: called in this
     thread as progress(done, total), pictures (one camera at one frame), at the start, after each and at the end.
     resume: complete an interrupted run of the same request. replace: remove the dataset of another request, or an

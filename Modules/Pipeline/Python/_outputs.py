@@ -42,16 +42,10 @@ _READERS = {
 }
 
 
-def _merged(first, second):
-    """A dict of columns with what another document says of the same rows, in a list of dicts, and beside."""
-    merged = dict(first)
-    for key, value in second.items():
-        if isinstance(value, list) and value and isinstance(value[0], dict):
-            for column in value[0]:
-                merged.setdefault(column, [numpy.array(row[column]) for row in value])
-        else:
-            merged.setdefault(key, value)
-    return merged
+def _tracked(cloud, tracks):
+    """A point cloud with the tracks of its points, and what else their document says."""
+    points = tracks.pop("points")
+    return {**cloud, **tracks, "track": [numpy.array(point["track"]) for point in points]}
 
 
 def outputs_of(renderer):
@@ -71,7 +65,7 @@ def outputs_of(renderer):
         if part:
             outputs.setdefault(array.GetName(), {})[part] = values
         elif array.GetName() in outputs:
-            outputs[array.GetName()] = _merged(outputs[array.GetName()], values)
+            outputs[array.GetName()] = _tracked(outputs[array.GetName()], values)
         else:
             outputs[array.GetName()] = values
     return outputs

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Layers of a picture as arrays."""
+import contextlib
 import os
 import threading
 
@@ -23,9 +24,19 @@ def with_options(function, lines):
         function.__doc__ += f"\n    {name}: {text}" + (f" [{default}]" if value and default else "")
 
 
+@contextlib.contextmanager
 def turn(shared):
-    """A lock of an object: threads that share it use it one after the other. A forked process has its own."""
-    return shared.__dict__.setdefault(f"_turn{os.getpid()}", threading.Lock())
+    """Threads that share an object use it one after the other, none of them inside its own use (a signal's handler). A forked process
+    has turns of its own."""
+    lock, users = shared.__dict__.setdefault(f"_turn{os.getpid()}", (threading.RLock(), []))
+    with lock:
+        if users:
+            raise RuntimeError(f"the {type(shared).__name__} is in use by this thread already (a signal handler needs one of its own)")
+        try:
+            users.append(None)
+            yield
+        finally:
+            users.clear()
 
 
 def render(scene, layers, camera=None, frame=None, size=None, renderer=None, keep=None, **options):
@@ -46,8 +57,9 @@ def render(scene, layers, camera=None, frame=None, size=None, renderer=None, kee
     `viewport` and the thesis's matrices; `points` a dict of arrays and tracks; `ldi` a dict of `count`, `rgba`, `depth`
     and `splat`; `pov` a string. All are the caller's.
 
-    Raises ValueError for a wrong request and RuntimeError for what the machine cannot do (no OpenGL, no memory), one
-    line each. Other threads run meanwhile, and may render. Works in forked processes, too.
+    Raises ValueError for a wrong request and RuntimeError for what the machine cannot do (no OpenGL, no memory), and in
+    a signal handler for the renderer of the picture that it interrupts, one line each. Other threads run meanwhile, and
+    may render. Works in forked processes, too.
     """
     require_scene(scene)
     if isinstance(renderer, str):

@@ -52,7 +52,7 @@ class Scene(dgtkScene):
         return json.loads(self.GetDescription() or "{}")
 
     def __reduce__(self):
-        return scene, (self.description(), self.folder)
+        return (scene, (self.description(), self.folder)) if self.folder else (Scene, ())
 
 
 def load(path):
@@ -108,6 +108,8 @@ def _plain(value, path, depth=0):
         _fail("", f"at most {_DEEPEST} lists and dicts in one another", value, "is nested too deeply")
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
+    if isinstance(value, numpy.floating):  # longer than Python has them
+        value = float(value)
     if isinstance(value, dict):
         for key in value:
             if not isinstance(key, str):
