@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkEditorLanguage.h"
 
+#include "dgtkSceneDescription.h"
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QLibraryInfo>
@@ -127,6 +129,23 @@ QString editText(const std::string& text)
 QString messageText(const std::string& text)
 {
   return text.empty() ? QString() : QCoreApplication::translate("Message", text.c_str());
+}
+
+QString contentsText(const SceneDescription& scene)
+{
+  const auto counted = [](std::size_t count, const char* one, const char* more)
+  {
+    return count == 1 ? QCoreApplication::translate("Contents", one)
+                      : QCoreApplication::translate("Contents", more).arg(count);
+  };
+  return counted(scene.objects.size(), QT_TRANSLATE_NOOP("Contents", "1 object"),
+           QT_TRANSLATE_NOOP("Contents", "%1 objects")) +
+         ", " +
+         counted(
+           scene.lights.size(), QT_TRANSLATE_NOOP("Contents", "1 light"), QT_TRANSLATE_NOOP("Contents", "%1 lights")) +
+         ", " +
+         counted(scene.cameras.size(), QT_TRANSLATE_NOOP("Contents", "1 camera"),
+           QT_TRANSLATE_NOOP("Contents", "%1 cameras"));
 }
 
 QString visibilityText(std::uint32_t value)

@@ -13,6 +13,8 @@
 namespace dgtk
 {
 
+struct SceneDescription;
+
 /// Languages of the window, as ISO 639 words: "en", the sources' own, and those with a translation.
 DGTKCONTROLS_EXPORT QStringList editorLanguages();
 
@@ -26,6 +28,9 @@ QString editText(const std::string& text);
 /// What a part without Qt says in a sentence of its own ("the last frame has none after it"), in the language of the
 /// window; as it is where that is not known, as what the command line says of files.
 QString messageText(const std::string& text);
+
+/// How many objects, lights and cameras a scene has.
+QString contentsText(const SceneDescription& scene);
 
 /// What a value of the layers "..._class" means, in the words of the dataset's format.
 QString visibilityText(std::uint32_t value);

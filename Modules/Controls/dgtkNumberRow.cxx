@@ -48,6 +48,32 @@ protected:
     painter.drawText(end, Qt::AlignCenter, more);
   }
 };
+
+QLineEdit* lineOf(QObject* field)
+{
+  auto* const line = qobject_cast<QLineEdit*>(field);
+  return line != nullptr ? line : field->findChild<QLineEdit*>();
+}
+
+class UndoLeft : public QObject
+{
+public:
+  using QObject::QObject;
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    if (event->type() != QEvent::ShortcutOverride || lineOf(watched)->isModified())
+    {
+      return false;
+    }
+    auto* const key = static_cast<QKeyEvent*>(event);
+    const bool left = key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo);
+    if (left)
+    {
+      event->ignore();
+    }
+    return left;
+  }
+};
 } // namespace
 
 QString numberText(double value) { return QString::fromStdString(shortest(value)); }
@@ -86,7 +112,7 @@ NumberRow::NumberRow(const QString& name, int count, QWidget* parent)
     auto* field = new NumberField(this);
     field->setObjectName(name + '.' + QString::number(i));
     field->setMinimumWidth(38);
-    field->installEventFilter(this);
+    leaveUndo(field);
     layout->addWidget(field);
     this->Fields.push_back(field);
     connect(field, &QLineEdit::returnPressed, this, &NumberRow::commit);
@@ -102,23 +128,7 @@ NumberRow::~NumberRow()
   for (QLineEdit* field : this->Fields)
   {
     field->disconnect(this);
-    field->removeEventFilter(this);
   }
-}
-
-bool NumberRow::eventFilter(QObject* watched, QEvent* event)
-{
-  auto* field = qobject_cast<QLineEdit*>(watched);
-  if (field != nullptr && event->type() == QEvent::ShortcutOverride && !field->isModified())
-  {
-    auto* key = static_cast<QKeyEvent*>(event);
-    if (key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo))
-    {
-      event->ignore();
-      return true;
-    }
-  }
-  return QWidget::eventFilter(watched, event);
 }
 
 void NumberRow::setValues(const std::vector<double>& values)
@@ -159,6 +169,15 @@ void NumberRow::commit()
   if (other && this->Edited)
   {
     this->Edited(wanted);
+  }
+}
+
+void leaveUndo(QWidget* field)
+{
+  field->installEventFilter(new UndoLeft(field));
+  if (auto* const box = qobject_cast<QAbstractSpinBox*>(field))
+  {
+    QObject::connect(box, &QAbstractSpinBox::editingFinished, box, [line = lineOf(box)] { line->setModified(false); });
   }
 }
 

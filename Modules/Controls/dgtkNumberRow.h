@@ -44,10 +44,6 @@ public:
   /// Called with the new values when a field changed.
   void onEdit(std::function<void(const std::vector<double>&)> edited) { this->Edited = std::move(edited); }
 
-protected:
-  /// Undo and redo are the window's where nothing is being typed.
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
 private:
   void leaveField();
 
@@ -56,6 +52,9 @@ private:
   std::vector<double> Values;
   std::function<void(const std::vector<double>&)> Edited;
 };
+
+/// Undo and redo are the window's while nothing is being typed in this line or spin box.
+DGTKCONTROLS_EXPORT void leaveUndo(QWidget* field);
 
 /// A field for whole numbers; what is typed counts when it is left.
 DGTKCONTROLS_EXPORT QSpinBox* makeNumber(const QString& name, int least, int most, int value);

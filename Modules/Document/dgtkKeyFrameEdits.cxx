@@ -82,23 +82,38 @@ void copyFrame(SceneDescription& scene, int from, int to, bool move)
     }
   }
 }
+
+/// Whether a track of an item is a colour, if it is of vectors.
+bool isColor(const SceneDescription& scene, const SceneItem& item, const void* track, bool pose)
+{
+  if (item.kind != SceneItem::Kind::Light)
+  {
+    return item.kind == SceneItem::Kind::Object && !pose;
+  }
+  const LightDescription& light = scene.lights[item.index];
+  return track == &light.ambient || track == &light.diffuse || track == &light.specular;
+}
 } // namespace
 
 void makeKeyFrame(SceneDescription& scene, int frame)
 {
-  forEachTrack(scene,
-    [frame](auto& track, bool always)
+  const auto make = [frame](auto& track, bool always, bool color)
+  {
+    if (always || track.animated())
     {
-      if (always || track.animated())
+      const auto value = valueAt(track, frame, color);
+      if (!track.animated())
       {
-        const auto value = track.at(frame);
-        if (!track.animated())
-        {
-          track.keys.push_back({ frame, value });
-        }
-        setTrackAt(track, frame, value);
+        track.keys.push_back({ frame, value });
       }
-    });
+      setTrackAt(track, frame, value);
+    }
+  };
+  forEachTrackOfScene(scene, [&](auto& track, bool) { make(track, false, true); });
+  for (const SceneItem& item : scene.items())
+  {
+    forEachTrackOf(scene, item, [&](auto& track, bool pose) { make(track, pose, isColor(scene, item, &track, pose)); });
+  }
   const std::vector<int> frames = scene.keyFrames();
   if (!std::binary_search(frames.begin(), frames.end(), frame))
   {

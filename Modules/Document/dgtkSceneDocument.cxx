@@ -35,8 +35,8 @@ void SceneDocument::notify() const
 
 void SceneDocument::reset(SceneDescription scene, const std::string& path, std::size_t clean)
 {
-  this->Scene = std::move(scene);
   this->Path = path;
+  this->put(std::move(scene));
   ++this->Opened;
   this->Done.clear();
   this->Undone.clear();
@@ -80,6 +80,7 @@ void SceneDocument::saveAs(const std::string& path)
   const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
   writeScene(this->Scene, absolute);
   this->Path = absolute;
+  this->Scene.file = absolute;
   this->finishMerging();
   this->Clean = this->Done.size();
   this->notify();
@@ -250,12 +251,18 @@ void SceneDocument::putBack(const Step& step)
 {
   if (step.whole)
   {
-    this->Scene = step.before;
+    this->put(step.before);
   }
   else
   {
     putState(this->Scene, step.item, step.itemBefore);
   }
+}
+
+void SceneDocument::put(SceneDescription scene)
+{
+  this->Scene = std::move(scene);
+  this->Scene.file = this->Path;
 }
 
 void SceneDocument::undo()
@@ -286,7 +293,7 @@ void SceneDocument::redo()
   this->Undone.pop_back();
   if (step.whole)
   {
-    this->Scene = step.after;
+    this->put(step.after);
   }
   else
   {

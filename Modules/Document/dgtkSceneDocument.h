@@ -120,6 +120,8 @@ private:
   static void putState(SceneDescription& scene, const SceneItem& item, const ItemState& state);
   void accept(Step step);
   void putBack(const Step& step);
+  /// A scene of a step, which may be older than the file's name.
+  void put(SceneDescription scene);
   bool lastChangesNothing() const;
   void forget();
   void reset(SceneDescription scene, const std::string& path, std::size_t clean);

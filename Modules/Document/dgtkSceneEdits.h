@@ -10,6 +10,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace dgtk
@@ -39,6 +40,24 @@ void setTrackAt(Track<T>& track, int frame, const T& value)
   {
     const auto way = at == track.keys.begin() ? std::nullopt : std::prev(at)->interpolation;
     track.keys.insert(at, Key<T>{ frame, value, way });
+  }
+}
+
+/// The value at a frame as pictures have it: numbers and colours stay within their keys where a smooth curve does not.
+template <typename T>
+T valueAt(const Track<T>& track, int frame, bool color)
+{
+  if constexpr (std::is_same_v<T, double>)
+  {
+    return boundedAt(track, frame);
+  }
+  else if constexpr (std::is_same_v<T, Eigen::Vector3d>)
+  {
+    return color ? boundedAt(track, frame) : track.at(frame);
+  }
+  else
+  {
+    return track.at(frame);
   }
 }
 

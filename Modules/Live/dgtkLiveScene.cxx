@@ -87,6 +87,7 @@ std::shared_ptr<const Stage> LiveScene::stageWith(const CameraDescription& camer
     return this->stage();
   }
   SceneDescription more = this->Scene;
+  more.order.clear(); // lists its own
   more.cameras.push_back(camera);
   std::string& name = more.cameras.back().name;
   for (name = "eye"; called(name) != own.end();)

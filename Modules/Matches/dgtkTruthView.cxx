@@ -2,6 +2,7 @@
 #include "dgtkTruthView.h"
 
 #include "dgtkEditorLanguage.h"
+#include "dgtkStage.h"
 #include "dgtkTruthPanel.h"
 #include "dgtkTruthPicture.h"
 
@@ -294,12 +295,15 @@ std::optional<WorldRay> TruthView::rayAt(const QPoint& position)
     {
       return std::nullopt;
     }
-    const CameraRay ray = view.model->rayThrough({ pixel->x() + 0.5, pixel->y() + 0.5 });
+    const Eigen::Vector2d centre(pixel->x() + 0.5, pixel->y() + 0.5);
+    const CameraRay ray = view.model->rayThrough(centre);
     if (!ray.exists())
     {
       return std::nullopt;
     }
-    const Rigid3 world_from_camera = view.camera_from_world.inverse();
+    const double time = asked->frame + view.model->timeAt(centre);
+    const View then = cameraView(asked->camera, time, asked->width, asked->height, asked->scene->description().folder);
+    const Rigid3 world_from_camera = then.camera_from_world.inverse();
     return WorldRay{ world_from_camera * ray.origin, world_from_camera.rotation * ray.direction, view.near, view.far };
   }
   catch (const std::exception&)

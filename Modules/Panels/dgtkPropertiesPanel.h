@@ -64,8 +64,8 @@ private:
   void addNumber(const QString& label, const QString& name, const std::function<double&(SceneDescription&)>& value);
   void addVector(
     const QString& label, const QString& name, const std::function<Eigen::Vector3d&(SceneDescription&)>& value);
-  void addTrack(
-    const QString& label, const QString& name, const std::function<Track<Eigen::Vector3d>&(SceneDescription&)>& track);
+  void addTrack(const QString& label, const QString& name,
+    const std::function<Track<Eigen::Vector3d>&(SceneDescription&)>& track, bool color = false);
   void addTrack(
     const QString& label, const QString& name, const std::function<Track<double>&(SceneDescription&)>& track);
   void addOrientation(const std::function<Track<Quaternion>&(SceneDescription&)>& track);

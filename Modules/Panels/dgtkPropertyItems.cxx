@@ -99,11 +99,11 @@ void PropertiesPanel::buildLight(std::size_t index)
   }
   using Scalars = Track<double>;
   this->addTrack(
-    tr("Diffuse"), "diffuse", [light](SceneDescription& scene) -> Vectors& { return light(scene).diffuse; });
+    tr("Diffuse"), "diffuse", [light](SceneDescription& scene) -> Vectors& { return light(scene).diffuse; }, true);
   this->addTrack(
-    tr("Specular"), "specular", [light](SceneDescription& scene) -> Vectors& { return light(scene).specular; });
+    tr("Specular"), "specular", [light](SceneDescription& scene) -> Vectors& { return light(scene).specular; }, true);
   this->addTrack(
-    tr("Ambient"), "ambient", [light](SceneDescription& scene) -> Vectors& { return light(scene).ambient; });
+    tr("Ambient"), "ambient", [light](SceneDescription& scene) -> Vectors& { return light(scene).ambient; }, true);
   this->addTrack(
     tr("Intensity"), "intensity", [light](SceneDescription& scene) -> Scalars& { return light(scene).intensity; });
   if (now.near)
@@ -247,7 +247,7 @@ void PropertiesPanel::buildParameters(std::size_t index)
       Numbers numbers;
       for (const Track<double>& track : own == values.end() ? std::vector<Track<double>>() : own->second.numbers)
       {
-        numbers.push_back(track.at(this->State.frame()));
+        numbers.push_back(boundedAt(track, this->State.frame()));
       }
       return numbers.empty() ? parameter.usual : numbers;
     };
@@ -274,8 +274,10 @@ void PropertiesPanel::buildScene()
     tr("Up axis"), "upAxis", { "y", "z" }, [](const SceneDescription& scene) { return static_cast<int>(scene.upAxis); },
     [](SceneDescription& scene, int axis) { scene.upAxis = static_cast<UpAxis>(axis); });
   using Vectors = Track<Eigen::Vector3d>;
-  this->addTrack(tr("Background"), "background", [](SceneDescription& scene) -> Vectors& { return scene.background; });
-  this->addTrack(tr("Fog"), "fogColor", [](SceneDescription& scene) -> Vectors& { return scene.fog.color; });
+  this->addTrack(
+    tr("Background"), "background", [](SceneDescription& scene) -> Vectors& { return scene.background; }, true);
+  this->addTrack(
+    tr("Fog"), "fogColor", [](SceneDescription& scene) -> Vectors& { return scene.fog.color; }, true);
   this->addTrack(
     tr("Fog's density"), "fogDensity", [](SceneDescription& scene) -> Track<double>& { return scene.fog.density; });
   this->addTrack(this->withUnits(tr("Fog begins at")), "fogStart",

@@ -37,6 +37,7 @@ void PropertiesPanel::addText(const QString& label, const QString& name,
 {
   auto* field = new QLineEdit(this->Form->parentWidget());
   field->setObjectName(name);
+  leaveUndo(field);
   this->Form->addRow(label, field);
   this->Refreshers.push_back(
     [field, get](SceneDescription& scene)
@@ -93,12 +94,13 @@ void PropertiesPanel::addVector(
     [value](SceneDescription& scene, const Numbers& numbers) { value(scene) = vectorOf(numbers); });
 }
 
-void PropertiesPanel::addTrack(
-  const QString& label, const QString& name, const std::function<Track<Eigen::Vector3d>&(SceneDescription&)>& track)
+void PropertiesPanel::addTrack(const QString& label, const QString& name,
+  const std::function<Track<Eigen::Vector3d>&(SceneDescription&)>& track, bool color)
 {
   this->addNumbers(
     label, name, 3,
-    [this, track](const SceneDescription& scene) { return listOf(track(readable(scene)).at(this->State.frame())); },
+    [this, track, color](const SceneDescription& scene)
+    { return listOf(valueAt(track(readable(scene)), this->State.frame(), color)); },
     [this, track](SceneDescription& scene, const Numbers& numbers)
     { setTrackAt(track(scene), this->State.frame(), vectorOf(numbers)); });
 }
@@ -108,7 +110,8 @@ void PropertiesPanel::addTrack(
 {
   this->addNumbers(
     label, name, 1,
-    [this, track](const SceneDescription& scene) { return Numbers{ track(readable(scene)).at(this->State.frame()) }; },
+    [this, track](const SceneDescription& scene)
+    { return Numbers{ boundedAt(track(readable(scene)), this->State.frame()) }; },
     [this, track](SceneDescription& scene, const Numbers& numbers)
     { setTrackAt(track(scene), this->State.frame(), numbers[0]); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTimeLine.h"
 
+#include "dgtkNumberRow.h"
 #include "dgtkTimeLineCells.h"
 
 #include <QDoubleSpinBox>
@@ -45,6 +46,7 @@ void TimeLine::addFrameFields(QBoxLayout* layout)
   this->Frame->setObjectName("frame");
   this->Frame->setRange(0, largestFrame);
   this->Frame->setKeyboardTracking(false);
+  leaveUndo(this->Frame);
   layout->addWidget(this->Frame);
   this->Rate = new QDoubleSpinBox(this);
   this->Rate->setObjectName("frameRate");
@@ -53,6 +55,7 @@ void TimeLine::addFrameFields(QBoxLayout* layout)
   this->Rate->setKeyboardTracking(false);
   this->Rate->setSuffix(tr(" frames/s"));
   this->Rate->setToolTip(tr("The scene's frame rate: of playing, and of the models' sequences"));
+  leaveUndo(this->Rate);
   layout->addWidget(this->Rate);
   connect(this->Frame, QOverload<int>::of(&QSpinBox::valueChanged), &this->State, &EditorState::setFrame);
   connect(this->Rate, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,

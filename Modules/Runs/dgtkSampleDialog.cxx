@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampleDialog.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
 #include "dgtkNewestTask.h"
 #include "dgtkSampleWriter.h"
@@ -297,12 +298,10 @@ QString SampleDialog::lineOf(const DrawnSample& drawn) const
   {
     return toText(drawn.fault);
   }
-  const SceneDescription& scene = drawn.scene->scene;
   const auto out =
     std::count_if(drawn.notes.begin(), drawn.notes.end(), [](const SampleNote& note) { return !note.kept; });
-  return tr("Sample %1: %2 objects, %3 lights, %4 cameras; %5 left out")
-    .arg(QString::number(drawn.number), QString::number(scene.objects.size()), QString::number(scene.lights.size()),
-      QString::number(scene.cameras.size()), QString::number(out));
+  return tr("Sample %1: %2; %3 left out")
+    .arg(QString::number(drawn.number), contentsText(drawn.scene->scene), QString::number(out));
 }
 
 void SampleDialog::list(const DrawnSample& drawn)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPovImages.h"
 
+#include "dgtkCutOutColors.h"
 #include "dgtkFile.h"
 
 #include <algorithm>
@@ -34,15 +35,17 @@ std::string pnmHeader(const char* kind, const Image& image)
 }
 } // namespace
 
-std::string povPpm(const Image& image, const Eigen::Vector3d& tint)
+std::string povPpm(const Image& image, const Eigen::Vector3d& tint, bool cutOut)
 {
+  const std::vector<std::uint8_t> filled = cutOut ? withoutHoles(image) : std::vector<std::uint8_t>();
+  const std::vector<std::uint8_t>& rgba = cutOut ? filled : image.rgba;
   std::string text = pnmHeader("P6", image);
-  text.reserve(text.size() + image.rgba.size() / 4 * 3);
-  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+  text.reserve(text.size() + rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgba.size(); ++i)
   {
     if (i % 4 != 3)
     {
-      text += static_cast<char>(std::lround(image.rgba[i] * tint[Eigen::Index(i % 4)]));
+      text += static_cast<char>(std::lround(rgba[i] * tint[Eigen::Index(i % 4)]));
     }
   }
   return text;
@@ -91,10 +94,10 @@ std::string PovImagesBeside::own(const Texture& texture) const
   return std::all_of(relative.begin(), relative.end(), plain) ? relative : std::string();
 }
 
-int PovImagesBeside::number(const Image& image, const Eigen::Vector3d& tint)
+int PovImagesBeside::number(const Image& image, const Eigen::Vector3d& tint, bool cutOut)
 {
   const int next = static_cast<int>(this->Numbers.size());
-  return this->Numbers.try_emplace({ &image, tint.x(), tint.y(), tint.z() }, next).first->second;
+  return this->Numbers.try_emplace({ &image, tint.x(), tint.y(), tint.z(), cutOut }, next).first->second;
 }
 
 std::string PovImagesBeside::write(const std::string& end, const std::string& contents)
@@ -106,7 +109,7 @@ std::string PovImagesBeside::write(const std::string& end, const std::string& co
   return name;
 }
 
-std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d& tint)
+std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d& tint, bool cutOut)
 {
   const Image& image = *texture.image;
   const std::string relative = tint == Eigen::Vector3d(1, 1, 1) ? this->own(texture) : std::string();
@@ -114,11 +117,11 @@ std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d
   {
     return "png \"" + relative + '"';
   }
-  const std::string end = '_' + std::to_string(this->number(image, tint)) + ".ppm";
+  const std::string end = '_' + std::to_string(this->number(image, tint, cutOut)) + ".ppm";
   std::string& reference = this->Written[end];
   if (reference.empty())
   {
-    reference = "ppm \"" + this->write(end, povPpm(image, tint)) + '"';
+    reference = "ppm \"" + this->write(end, povPpm(image, tint, cutOut)) + '"';
   }
   return reference;
 }
@@ -126,7 +129,7 @@ std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d
 std::string PovImagesBeside::mask(const Texture& texture)
 {
   const Image& image = *texture.image;
-  const std::string end = '_' + std::to_string(this->number(image, Eigen::Vector3d(1, 1, 1))) + "_mask.pgm";
+  const std::string end = '_' + std::to_string(this->number(image, Eigen::Vector3d(1, 1, 1), true)) + "_mask.pgm";
   std::string& reference = this->Written[end];
   if (reference.empty())
   {

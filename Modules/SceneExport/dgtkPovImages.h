@@ -18,8 +18,8 @@ class PovImages
 {
 public:
   virtual ~PovImages() = default;
-  /// `png "picture.png"`: the colours of a texture, times `tint`.
-  virtual std::string color(const Texture& texture, const Eigen::Vector3d& tint) = 0;
+  /// `png "picture.png"`: the colours of a texture, times `tint`; of a cut-out one, those beside its holes in them.
+  virtual std::string color(const Texture& texture, const Eigen::Vector3d& tint, bool cutOut) = 0;
   /// `pgm "picture_mask.pgm"`: 255 where a texel is, 0 where it is missing.
   virtual std::string mask(const Texture& texture) = 0;
 };
@@ -32,24 +32,24 @@ public:
   /// `scene` is the path of the .pov file.
   explicit PovImagesBeside(const std::string& scene);
 
-  std::string color(const Texture& texture, const Eigen::Vector3d& tint) override;
+  std::string color(const Texture& texture, const Eigen::Vector3d& tint, bool cutOut) override;
   std::string mask(const Texture& texture) override;
   const std::vector<std::string>& files() const { return this->Files; }
 
 private:
   std::string own(const Texture& texture) const;
   std::string write(const std::string& end, const std::string& contents);
-  int number(const Image& image, const Eigen::Vector3d& tint);
+  int number(const Image& image, const Eigen::Vector3d& tint, bool cutOut);
 
   std::string Folder;
   std::string Stem;
-  std::map<std::tuple<const Image*, double, double, double>, int> Numbers;
+  std::map<std::tuple<const Image*, double, double, double, bool>, int> Numbers;
   std::map<std::string, std::string> Written; ///< name -> reference
   std::vector<std::string> Files;
 };
 
-/// Contents of a .ppm with the colours of a picture times `tint`.
-std::string povPpm(const Image& image, const Eigen::Vector3d& tint);
+/// Contents of a .ppm with the colours of a picture times `tint`, holes filled as in `withoutHoles()` if it is cut out.
+std::string povPpm(const Image& image, const Eigen::Vector3d& tint, bool cutOut);
 /// Contents of a .pgm: 255 where a texel is, 0 where it is missing.
 std::string povMaskPgm(const Image& image);
 /// Whether a texture's own file is a PNG whose colours POV-Ray reads as they are.

@@ -31,23 +31,23 @@ public:
   {
   }
 
-  std::string color(const Texture& texture, const Eigen::Vector3d& tint) override
+  std::string color(const Texture& texture, const Eigen::Vector3d& tint, bool cutOut) override
   {
     const bool whole = tint == Eigen::Vector3d(1, 1, 1) && povReads(texture);
     const std::string stem = stemOf(texture.path, "texture");
-    return this->named(this->Library.image({ texture.image.get(), tint.x(), tint.y(), tint.z() },
+    return this->named(this->Library.image({ texture.image.get(), tint.x(), tint.y(), tint.z(), cutOut },
       [&]
       {
         return whole ? this->Library.add(stem, "png", readFile(texture.path))
-                     : this->Library.add(stem, "ppm", povPpm(*texture.image, tint));
+                     : this->Library.add(stem, "ppm", povPpm(*texture.image, tint, cutOut));
       }));
   }
 
   std::string mask(const Texture& texture) override
   {
     const std::string stem = stemOf(texture.path, "texture") + "_mask";
-    return this->named(this->Library.image(
-      { texture.image.get(), -1, -1, -1 }, [&] { return this->Library.add(stem, "pgm", povMaskPgm(*texture.image)); }));
+    return this->named(this->Library.image({ texture.image.get(), -1, -1, -1, true },
+      [&] { return this->Library.add(stem, "pgm", povMaskPgm(*texture.image)); }));
   }
 
   const std::vector<std::string>& files() const { return this->Files; }

@@ -39,7 +39,7 @@ struct PovLibrary::Impl
   /// Writes a file unless it is there; returns its name <stem>_<hash>.<extension>.
   std::string add(const std::string& stem, const std::string& extension, const std::string& contents);
 
-  using ImageKey = std::tuple<const Image*, double, double, double>;
+  using ImageKey = std::tuple<const Image*, double, double, double, bool>;
   /// `make` gives the file's name when the image has none yet.
   template <class Make>
   std::string image(const ImageKey& key, Make make);

@@ -44,7 +44,7 @@ std::string bumps(const PovSurface& surface, PovImages& images)
     return {};
   }
   const Texture& texture = surface.model.textures[static_cast<std::size_t>(material.bumpMap)];
-  return "normal { uv_mapping bump_map { " + images.color(texture, { 1, 1, 1 }) + " interpolate 2 bump_size " +
+  return "normal { uv_mapping bump_map { " + images.color(texture, { 1, 1, 1 }, false) + " interpolate 2 bump_size " +
          povNumber(material.bumpScale / surface.texel) + " } scale <1, 1, -1> } ";
 }
 
@@ -149,7 +149,7 @@ std::string povMaterial(const PovSurface& surface, const PovSurfaceOptions& opti
   std::string pigment;
   if (imageOf(model, material))
   {
-    pigment = "image_map { " + images.color(textureOf(model, material), tint) + " gamma srgb interpolate 2" +
+    pigment = "image_map { " + images.color(textureOf(model, material), tint, cutOut) + " gamma srgb interpolate 2" +
               (transmit > 0 ? " transmit all " + povNumber(transmit) : "") + " }";
     pigment = cutOut ? masked(model, material, images, pigment) : "uv_mapping " + pigment;
   }

@@ -243,7 +243,7 @@ void ViewActors::showLights(const SceneDescription& scene, const ScenePlaces& pl
   for (std::size_t i = 0; i < places.lights.size(); ++i)
   {
     const LightDescription& light = scene.lights[i];
-    const Eigen::Vector3d diffuse = light.diffuse.at(places.frame);
+    const Eigen::Vector3d diffuse = boundedAt(light.diffuse, places.frame);
     Eigen::Vector3d color = diffuse / std::max(diffuse.maxCoeff(), 1e-9);
     color = light.enabled.at(places.frame) ? color : Eigen::Vector3d(0.35, 0.35, 0.35);
     this->Lights[i]->GetProperty()->SetColor(color.x(), color.y(), color.z());

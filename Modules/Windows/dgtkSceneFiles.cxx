@@ -3,6 +3,7 @@
 
 #include "dgtkAutosave.h"
 #include "dgtkBackgroundWork.h"
+#include "dgtkEditorLanguage.h"
 #include "dgtkEditorLog.h"
 #include "dgtkEditorState.h"
 #include "dgtkEnvironmentLight.h"
@@ -166,10 +167,7 @@ bool SceneFiles::openFile(const QString& path)
   this->State.setFrame(this->State.scene().firstFrame());
   this->Views.showWhole();
   this->addRecent(path);
-  const SceneDescription& scene = this->State.scene();
-  const QString opened = tr("Opened %1: %2 objects, %3 lights, %4 cameras")
-                           .arg(QFileInfo(path).fileName(), QString::number(scene.objects.size()),
-                             QString::number(scene.lights.size()), QString::number(scene.cameras.size()));
+  const QString opened = tr("Opened %1: %2").arg(QFileInfo(path).fileName(), contentsText(this->State.scene()));
   this->Log.note(EditorLog::withWarnings(opened, this->Log.warned()));
   this->findMissing();
   return true;

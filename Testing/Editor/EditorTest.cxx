@@ -13,6 +13,7 @@
 #include <QCheckBox>
 #include <QDialog>
 #include <QElapsedTimer>
+#include <QFile>
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QMenu>
@@ -24,6 +25,7 @@
 #include <QStandardPaths>
 #include <QTabBar>
 #include <QTabWidget>
+#include <QTemporaryDir>
 #include <QTest>
 #include <QTimer>
 #include <QTreeWidget>
@@ -368,6 +370,8 @@ int main(int argc, char** argv)
     return 2;
   }
   argv[1] = argv[0];
+  const QTemporaryDir own; // file dialogs show what lies beside: nothing of others
+  qputenv("TMPDIR", QFile::encodeName(own.path()));
   dgtk::prepareHeap(); // as dgtk-editor does
   return row->second(argc - 1, argv + 1);
 }

@@ -259,10 +259,11 @@ void TestEditorTruth::clicksGoThroughThePicture()
     {
       dgtk::CameraDescription& camera = scene.cameras.front();
       camera.posed = false;
-      camera.eye = Eigen::Vector3d(0, 6, 16);
+      camera.eye.keys = { { 0, Eigen::Vector3d(0, 6, 16) }, { 1, Eigen::Vector3d(48, 6, 16) } };
       camera.lookAt = Eigen::Vector3d(0, 1, 0);
       camera.up = Eigen::Vector3d(0.3, 1, 0);
       camera.fovY = 90;
+      camera.rollingShutter.duration = 1; // the lower half is seen from the side
     });
   auto* view = this->Window->findChild<QWidget*>("view.3");
   auto* overlay = view->findChild<QWidget*>("overlay");

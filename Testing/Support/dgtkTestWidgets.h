@@ -36,6 +36,15 @@ inline void sendKey(QWidget& widget, int key, Qt::KeyboardModifiers modifiers = 
   QApplication::sendEvent(&widget, &event);
 }
 
+/// Whether a widget that has the focus keeps Ctrl+Z from the window.
+inline bool takesUndo(QWidget& widget)
+{
+  QKeyEvent undo(QEvent::ShortcutOverride, Qt::Key_Z, Qt::ControlModifier);
+  undo.ignore();
+  QApplication::sendEvent(&widget, &undo);
+  return undo.isAccepted();
+}
+
 inline void sendWheel(QWidget& widget, const QPointF& at, int steps)
 {
   QWheelEvent event(at, at, QPoint(), QPoint(0, 120 * steps), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);

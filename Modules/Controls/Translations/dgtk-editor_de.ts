@@ -49,6 +49,33 @@
     </message>
 </context>
 <context>
+    <name>Contents</name>
+    <message>
+        <source>1 object</source>
+        <translation>1 Objekt</translation>
+    </message>
+    <message>
+        <source>%1 objects</source>
+        <translation>%1 Objekte</translation>
+    </message>
+    <message>
+        <source>1 light</source>
+        <translation>1 Licht</translation>
+    </message>
+    <message>
+        <source>%1 lights</source>
+        <translation>%1 Lichter</translation>
+    </message>
+    <message>
+        <source>1 camera</source>
+        <translation>1 Kamera</translation>
+    </message>
+    <message>
+        <source>%1 cameras</source>
+        <translation>%1 Kameras</translation>
+    </message>
+</context>
+<context>
     <name>Edit</name>
     <message>
         <source>Add camera</source>
@@ -2251,16 +2278,16 @@
         <translation>Ziehung %1 ist abgelehnt: %2</translation>
     </message>
     <message>
-        <source>Sample %1: %2 objects, %3 lights, %4 cameras; %5 left out</source>
-        <translation>Ziehung %1: %2 Objekte, %3 Lichter, %4 Kameras; %5 ausgelassen</translation>
-    </message>
-    <message>
         <source>attempts: %1</source>
         <translation>Versuche: %1</translation>
     </message>
     <message>
         <source>%1. The views show sample %2.</source>
         <translation>%1. Die Ansichten zeigen Ziehung %2.</translation>
+    </message>
+    <message>
+        <source>Sample %1: %2; %3 left out</source>
+        <translation>Ziehung %1: %2; %3 ausgelassen</translation>
     </message>
 </context>
 <context>
@@ -2405,10 +2432,6 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <translation>%1 wird gelesen ...</translation>
     </message>
     <message>
-        <source>Opened %1: %2 objects, %3 lights, %4 cameras</source>
-        <translation>%1 geöffnet: %2 Objekte, %3 Lichter, %4 Kameras</translation>
-    </message>
-    <message>
         <source>All models (%1)</source>
         <translation>Alle Modelle (%1)</translation>
     </message>
@@ -2479,6 +2502,10 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>&amp;Sample ...</source>
         <translation>&amp;Ziehen ...</translation>
+    </message>
+    <message>
+        <source>Opened %1: %2</source>
+        <translation>%1 geöffnet: %2</translation>
     </message>
 </context>
 <context>

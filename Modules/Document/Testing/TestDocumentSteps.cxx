@@ -346,4 +346,34 @@ TEST(DocumentSteps, OldStepsOfLargeScenesAreForgotten)
   EXPECT_EQ(stepsOf(document).size(), 11u) << "one of the ten has gone";
   EXPECT_TRUE(document.modified());
 }
+
+TEST(DocumentSteps, RefusalsNameTheFileThatTheSceneHas)
+{
+  const test::TemporaryFolder folder;
+  const std::string first_file = folder.path("a.json");
+  const std::string second_file = folder.path("b.json");
+  std::ofstream(first_file) << "{}";
+  SceneDocument document;
+  const auto expectFile = [&document](const std::string& file)
+  {
+    EXPECT_EQ(document.scene().file, file);
+    const std::string message =
+      test::thrownBy<InputError>([&] { document.edit("Rate", [](SceneDescription& scene) { scene.fps = -1; }); });
+    EXPECT_EQ(message.rfind(file, 0), 0u) << message;
+  };
+  document.open(first_file);
+  document.addLight({});
+  document.addLight({});
+  document.undo();
+  expectFile(first_file);
+  document.saveAs(second_file);
+  expectFile(second_file);
+  document.undo();
+  expectFile(second_file);
+  document.redo();
+  document.redo();
+  expectFile(second_file);
+  document.recover(*SceneDocument::read(second_file), first_file);
+  expectFile(first_file);
+}
 } // namespace

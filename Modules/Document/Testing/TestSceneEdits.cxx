@@ -282,4 +282,59 @@ TEST(SceneEdits, PastedElsewhereModelsAreStillFound)
   const std::string file = document.scene().resolve(document.scene().objects.front().model);
   EXPECT_TRUE(std::filesystem::equivalent(file, sourceFile("Data/Models/house.ac"))) << file;
 }
+
+/// A smooth curve with keys of 1, 0 and 0 is at -1/16 between the last two; what has a range stays at 0.
+TEST(SceneEdits, AKeyFrameHasWhatIsSeenThere)
+{
+  using V = Eigen::Vector3d;
+  Track<double> number;
+  number.keys = { { 0, 1 }, { 4, 0 }, { 8, 0 } };
+  number.interpolation = Interpolation::Smooth;
+  Track<V> vector;
+  vector.keys = { { 0, V(1, 1, 1) }, { 4, V(0, 0, 0) }, { 8, V(0, 0, 0) } };
+  vector.interpolation = Interpolation::Smooth;
+  SceneDescription scene;
+  scene.objects.resize(1);
+  scene.objects[0].materials.resize(1);
+  scene.lights.resize(1);
+  scene.cameras.resize(2);
+  scene.cameras[1].posed = true;
+  ObjectDescription& object = scene.objects[0];
+  LightDescription& light = scene.lights[0];
+  CameraDescription& camera = scene.cameras[0];
+  object.materials[0].opacity = number;
+  object.materials[0].diffuse = vector;
+  camera.parameters["xi"].numbers = { number };
+  const std::vector<Track<double>*> numbers{ &scene.fog.density, &scene.fog.start, &*object.materials[0].opacity,
+    &light.intensity, &light.coneAngle, &light.exponent, &camera.fovY, &camera.viewHeight, &camera.lens.focus,
+    &camera.parameters["xi"].numbers[0] };
+  const std::vector<Track<V>*> colors{ &scene.background, &scene.fog.color, &*object.materials[0].diffuse,
+    &light.ambient, &light.diffuse, &light.specular };
+  const std::vector<Track<V>*> places{ &object.position, &object.scale, &light.position, &light.target, &camera.eye,
+    &camera.lookAt, &camera.up, &scene.cameras[1].position };
+  for (Track<double>* track : numbers)
+  {
+    *track = number;
+  }
+  for (const auto* list : { &colors, &places })
+  {
+    for (Track<V>* track : *list)
+    {
+      *track = vector;
+    }
+  }
+  makeKeyFrame(scene, 6);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    EXPECT_EQ(numbers[i]->keys.at(2), (Key<double>{ 6, 0 })) << i;
+  }
+  for (std::size_t i = 0; i < colors.size(); ++i)
+  {
+    EXPECT_EQ(colors[i]->keys.at(2), (Key<V>{ 6, V(0, 0, 0) })) << i;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    EXPECT_EQ(places[i]->keys.at(2), (Key<V>{ 6, V(-1, -1, -1) / 16 })) << i;
+  }
+}
 } // namespace

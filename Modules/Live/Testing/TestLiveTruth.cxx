@@ -370,6 +370,16 @@ TEST(LiveView, ACameraOfTheSceneMayBeCalledAsTheEyeIs)
   EXPECT_EQ(eye.view().camera_from_world.translation, viewOf(question).camera_from_world.translation);
 }
 
+TEST(LiveView, SeesASceneWhoseFileListsItsItems)
+{
+  LiveQuestion question = questionOf("Data/Scenes/appendix_b3.scene", 0, 0, 8, 6);
+  ASSERT_FALSE(question.scene->description().order.empty());
+  question.camera.name.clear();
+  ThreadPool pool(1);
+  const LiveEye eye(question, 8, pool);
+  EXPECT_EQ(eye.missing("depth"), "");
+}
+
 TEST(NewestTask, WhatWaitedIsDropped)
 {
   std::vector<int> done;

@@ -201,5 +201,14 @@ Size, pixels | size 0 0
   ASSERT_EQ(own.at("panelList").numbers.size(), 2u);
   EXPECT_EQ(own.at("panelList").numbers[0].at(2), 0.5);
   EXPECT_EQ(own.at("panelList").numbers[1].at(2), -1);
+  this->State->document().edit("Smooth",
+    [](SceneDescription& scene)
+    {
+      Track<double>& track = scene.cameras[3].parameters["panelXi"].numbers[0];
+      track.keys = { { 0, 4.0 }, { 4, 0.0 }, { 8, 0.0 } };
+      track.interpolation = Interpolation::Smooth;
+    });
+  this->State->setFrame(6);
+  EXPECT_NE(this->rows().find("panelXi 0\n"), std::string::npos) << "within its keys, as the lens has it";
 }
 } // namespace

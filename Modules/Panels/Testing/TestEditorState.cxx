@@ -2,7 +2,11 @@
 // What is selected, the current frame and the clipboard; on no display.
 #include "dgtkEditorState.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkFourItems.h"
+#include "dgtkTestWidgets.h"
+
+#include <QTranslator>
 
 #include <gtest/gtest.h>
 
@@ -109,5 +113,24 @@ TEST(EditorState, TheClipboardHoldsFamilies)
   ASSERT_EQ(failures.size(), 2u);
   EXPECT_NE(failures[0].find("/none.ac"), std::string::npos);
   EXPECT_EQ(failures[1], "The memory of this machine is not enough.");
+}
+
+TEST(EditorLanguage, OneThingIsNotSeveral)
+{
+  needApplication();
+  SceneDescription scene;
+  scene.lights.resize(1);
+  scene.cameras.resize(2);
+  EXPECT_EQ(contentsText(scene), "0 objects, 1 light, 2 cameras");
+  QTranslator german;
+  ASSERT_TRUE(german.load("dgtk-editor_de", ":/dgtk/translations"));
+  QCoreApplication::installTranslator(&german);
+  EXPECT_EQ(contentsText(scene), "0 Objekte, 1 Licht, 2 Kameras");
+  scene.objects.resize(1);
+  scene.lights.resize(3);
+  scene.cameras.resize(1);
+  EXPECT_EQ(contentsText(scene), "1 Objekt, 3 Lichter, 1 Kamera");
+  QCoreApplication::removeTranslator(&german);
+  EXPECT_EQ(contentsText(scene), "1 object, 3 lights, 1 camera");
 }
 } // namespace

@@ -332,4 +332,51 @@ TEST_F(Properties, AParentIsNamedAsItIs)
   EXPECT_NE(this->rows().find("Parent | a\n"), std::string::npos);
 }
 
+TEST_F(Properties, SmoothCurvesStayWithinTheirKeysWhereThereIsARange)
+{
+  const auto smooth = [](auto& track, const auto& from, const auto& to)
+  {
+    track.keys = { { 0, from }, { 4, to }, { 8, to } };
+    track.interpolation = Interpolation::Smooth;
+  };
+  this->State->document().edit("keys",
+    [&smooth](SceneDescription& scene)
+    {
+      for (auto* const color : { &scene.background, &scene.fog.color, &scene.lights[2].diffuse,
+             &scene.lights[2].specular, &scene.lights[2].ambient })
+      {
+        smooth(*color, V(0, 0, 1), V(1, 0.2, 0.5));
+      }
+      smooth(scene.fog.density, 1.0, 0.0);
+      smooth(scene.lights[2].intensity, 2.0, 0.0);
+      smooth(scene.lights[2].position, V(0, 0, 2), V(1, 0, 1));
+    });
+  this->State->setFrame(6);
+  const std::string rows = this->rows();
+  EXPECT_NE(rows.find("background 1 0.2 0.5\n"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("fogColor 1 0.2 0.5\n"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("fogDensity 0\n"), std::string::npos) << rows;
+  this->type("background.1", "0.25");
+  EXPECT_EQ(this->Failure, "");
+  EXPECT_EQ(this->scene().background.keys.at(2), (Key<V>{ 6, V(1, 0.25, 0.5) }));
+  this->select(Kind::Light, 2);
+  const std::string ofLight = this->rows();
+  for (const char* color : { "diffuse", "specular", "ambient" })
+  {
+    EXPECT_NE(ofLight.find(color + std::string(" 1 0.2 0.5\n")), std::string::npos) << ofLight;
+  }
+  EXPECT_NE(ofLight.find("intensity 0\n"), std::string::npos) << ofLight;
+  EXPECT_NE(ofLight.find("position 1.0625 0 0.9375\n"), std::string::npos) << ofLight;
+}
+
+TEST_F(Properties, UndoIsTheWindowsWhereNoTextIsTyped)
+{
+  this->select(Kind::Object, 0);
+  auto* const line = this->field<QLineEdit>("class");
+  for (const bool typed : { false, true })
+  {
+    line->setModified(typed);
+    EXPECT_EQ(test::takesUndo(*line), typed);
+  }
+}
 } // namespace

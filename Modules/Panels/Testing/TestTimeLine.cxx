@@ -45,6 +45,26 @@ TEST(TimeLine, ARateThatIsBeingTypedIsTakenBeforeOtherThings)
   EXPECT_EQ(state.document().undoText(), "Change frame rate");
 }
 
+TEST(TimeLine, UndoIsTheWindowsWhileNoFrameIsTyped)
+{
+  test::needApplication();
+  EditorState state(nullptr);
+  TimeLine line(state, nullptr);
+  for (const char* name : { "frame", "frameRate" })
+  {
+    auto* const box = line.findChild<QWidget*>(name);
+    auto* const text = box->findChild<QLineEdit*>();
+    EXPECT_FALSE(test::takesUndo(*box)) << name;
+    text->setText("12");
+    text->setModified(true);
+    EXPECT_TRUE(test::takesUndo(*box)) << name;
+    test::sendKey(*box, Qt::Key_Return);
+    EXPECT_FALSE(test::takesUndo(*box)) << name;
+  }
+  EXPECT_EQ(state.frame(), 12);
+  EXPECT_EQ(state.scene().fps, 12);
+}
+
 TEST(TimeLineRows, HaveTheirPlaces)
 {
   SceneDocument document;

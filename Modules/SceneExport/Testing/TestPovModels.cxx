@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
+#include "dgtkSyntheticScene.h"
 #include "dgtkTestSupport.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
@@ -97,5 +99,40 @@ TEST(PovModels, OfOthersReadBackWithTheSameTriangles)
   EXPECT_GT(expectAllReadBack(folder), 20u);
 }
 
+/// What is cut out has the colours beside it; bumps have the picture's own.
+TEST(PovPictures, HolesAreFilledWhereTheyAreCutOut)
+{
+  const auto quad = test::makeQuad();
+  test::addCutOut(*quad, 2, 1);
+  auto image = std::make_shared<Image>(*quad->textures[0].image);
+  image->height = 1;
+  image->rgba = { 10, 20, 30, 255, 200, 100, 50, 0 };
+  quad->textures[0].image = image;
+  Material& leaf = quad->materials[0];
+  leaf.diffuse = { 1, 1, 1 };
+  leaf.bumpMap = 0;
+  const std::vector<std::string> wanted{ std::string("P6\n2 1\n255\n\x0a\x14\x1e\x0a\x14\x1e"),
+    std::string("P6\n2 1\n255\n\x0a\x14\x1e\xc8\x64\x32"), std::string("P5\n2 1\n255\n\xff\0", 13) };
+  const test::TemporaryFolder folder;
+  exportPov(quad, folder.path("q.pov"));
+  EXPECT_EQ(readFile(folder.path("q_0.ppm")), wanted[0]);
+  EXPECT_EQ(readFile(folder.path("q_1.ppm")), wanted[1]);
+  EXPECT_EQ(readFile(folder.path("q_0_mask.pgm")), wanted[2]);
+  View view;
+  view.name = "c";
+  view.model = makePinholeFromFov(64, 48, 45, 0);
+  view.camera_from_world = lookAtPose({ 1, 2, 8 }, { 0, 0, 0 }, { 0, 1, 0 });
+  fs::create_directories(folder.path("set"));
+  PovLibrary library(folder.path("set"), "");
+  std::vector<std::string> pictures;
+  for (const PovFile& file : makePovScene(*test::SceneBuilder().add(quad).state(), view, {}, library).uses)
+  {
+    if (fs::path(file.name).extension() != ".inc")
+    {
+      pictures.push_back(readFile(folder.path("set/" + file.name)));
+    }
+  }
+  EXPECT_THAT(pictures, testing::UnorderedElementsAreArray(wanted));
+}
 } // namespace
 } // namespace dgtk

@@ -118,11 +118,13 @@ void DatasetPictures::readDocuments()
   attempt(this->Warnings, [&] { this->Objects = readObjects((root / "objects.json").string()); });
   try
   {
-    this->Up = readScene((root / "scene.json").string()).upAxis;
+    SceneDescription scene = readScene((root / "scene.json").string());
+    this->Up = scene.upAxis;
+    this->SceneCameras = std::move(scene.cameras);
   }
-  catch (const std::exception&) // pictures need no scene
+  catch (const std::exception&)
   {
-    this->Up = UpAxis::Y;
+    // pictures need no scene
   }
   std::sort(this->Objects.begin(), this->Objects.end(),
     [](const ObjectRecord& a, const ObjectRecord& b) { return a.id < b.id; });
@@ -317,6 +319,13 @@ const CameraRecord* DatasetPictures::camera(const std::string& name, int frame) 
   const auto at = std::find_if(this->Records.begin(), this->Records.end(),
     [&](const CameraRecord& record) { return record.name == name && record.frame == frame; });
   return at == this->Records.end() ? nullptr : &*at;
+}
+
+const CameraDescription* DatasetPictures::sceneCamera(const std::string& name) const
+{
+  const auto at = std::find_if(this->SceneCameras.begin(), this->SceneCameras.end(),
+    [&](const CameraDescription& camera) { return camera.name == name; });
+  return at == this->SceneCameras.end() ? nullptr : &*at;
 }
 
 const ObjectRecord* DatasetPictures::object(std::uint32_t id) const

@@ -88,6 +88,8 @@ public:
   std::uint32_t objectOfHash(float hash) const;
   const std::vector<ObjectRecord>& objects() const { return this->Objects; }
   UpAxis upAxis() const { return this->Up; } ///< of scene.json; y where it cannot be read
+  /// A camera as scene.json has it; null where that cannot be read, or has none of the name.
+  const CameraDescription* sceneCamera(const std::string& name) const;
 
 private:
   void readDocuments();
@@ -111,6 +113,7 @@ private:
   std::vector<ObjectRecord> Objects;
   std::map<float, std::uint32_t> Hashes; ///< ids
   UpAxis Up = UpAxis::Y;
+  std::vector<CameraDescription> SceneCameras;
 };
 
 } // namespace dgtk

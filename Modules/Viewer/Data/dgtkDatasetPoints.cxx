@@ -4,6 +4,7 @@
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkPictureColors.h"
+#include "dgtkStage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,14 @@ namespace dgtk
 namespace
 {
 constexpr std::array<std::uint8_t, 3> uncolored = { 200, 200, 205 };
+constexpr double samePlace = 1e-9;
 
 std::shared_ptr<const CameraModel> modelOf(const CameraRecord& camera)
 {
   const std::optional<Eigen::Matrix3d> K = camera.hasK ? std::optional(camera.K) : std::nullopt;
-  return findCamera(camera.model)
-           ? makeCamera(camera.model, { camera.width, camera.height, K, camera.numbers, camera.files })
-           : nullptr;
+  return findCamera(camera.model) ? makeCamera(camera.model, { camera.width, camera.height, K, camera.numbers,
+                                                               camera.files, camera.rollingShutter })
+                                  : nullptr;
 }
 
 /// The parameter of the ray's point at a distance from the origin of its frame.
@@ -31,17 +33,40 @@ double parameterAt(const CameraRay& ray, double distance)
   return -middle + std::sqrt(middle * middle - (ray.origin.squaredNorm() - distance * distance) / square);
 }
 
-/// False for a model that is not known here. What is wrong with a known one is said where its points are asked for.
-bool knowsLens(const CameraRecord& camera)
+/// False for a model that is not known here, or places that are not. What is wrong with a known one is said where its
+/// points are asked for.
+bool knowsRays(const DatasetPictures& dataset, const CameraRecord& camera)
 {
   try
   {
-    return modelOf(camera) != nullptr;
+    return findCamera(camera.model) != nullptr && PixelCamera(dataset, camera).knowsPlace();
   }
   catch (const Error&)
   {
     return true;
   }
+}
+
+/// Whether the camera is in the same place at the frames before and after that the dataset has: at one of them at
+/// least.
+bool standsStill(const DatasetPictures& dataset, const CameraRecord& camera)
+{
+  const CameraRecord* before = nullptr;
+  const CameraRecord* after = nullptr;
+  for (const CameraRecord& other : dataset.records()) // by frame
+  {
+    if (other.name == camera.name && other.frame < camera.frame)
+    {
+      before = &other;
+    }
+    else if (other.name == camera.name && other.frame > camera.frame && after == nullptr)
+    {
+      after = &other;
+    }
+  }
+  const auto agrees = [&](const CameraRecord* other)
+  { return other == nullptr || (other->R == camera.R && other->t == camera.t); };
+  return (before != nullptr || after != nullptr) && agrees(before) && agrees(after);
 }
 
 bool isPlace(const LayerSpec& spec) { return spec.meaning == Meaning::Point && spec.frame == "world"; }
@@ -61,6 +86,41 @@ View viewOf(const CameraRecord& record)
   view.near = record.near;
   view.far = record.far;
   return view;
+}
+
+PixelCamera::PixelCamera(const DatasetPictures& dataset, const CameraRecord& record)
+  : Seen(viewOf(record))
+  , Frame(record.frame)
+  , OnePlace(!Seen.model->rolls() || standsStill(dataset, record))
+{
+  const CameraDescription* const camera = this->Seen.model->rolls() ? dataset.sceneCamera(record.name) : nullptr;
+  if (camera == nullptr)
+  {
+    return;
+  }
+  CameraDescription motion;
+  motion.posed = camera->posed;
+  motion.eye = camera->eye;
+  motion.lookAt = camera->lookAt;
+  motion.up = camera->up;
+  motion.position = camera->position;
+  motion.orientation = camera->orientation;
+  const Rigid3 own = cameraView(motion, record.frame).camera_from_world;
+  if (own.rotation.isApprox(record.R, samePlace) &&
+      (own.translation - record.t).norm() <= samePlace * std::max(1.0, record.t.norm()))
+  {
+    this->Motion = std::move(motion);
+  }
+}
+
+const View* PixelCamera::at(int x, int y)
+{
+  if (this->Motion)
+  {
+    const double time = this->Frame + this->Seen.model->timeAt(Eigen::Vector2d(x + 0.5, y + 0.5));
+    this->Seen.camera_from_world = cameraView(*this->Motion, time).camera_from_world;
+  }
+  return this->knowsPlace() ? &this->Seen : nullptr;
 }
 
 bool givesPoints(const LayerSpec& spec)
@@ -94,7 +154,7 @@ std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, 
 std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame)
 {
   const CameraRecord* const record = dataset.camera(camera, frame);
-  const bool positionOnly = record != nullptr && !knowsLens(*record);
+  const bool positionOnly = record != nullptr && !knowsRays(dataset, *record);
   for (const Meaning meaning : { Meaning::Point, Meaning::Depth, Meaning::Distance, Meaning::InverseDepth })
   {
     for (const PictureLayer& layer : dataset.layers())
@@ -127,7 +187,12 @@ void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::str
   }
   const std::string path = dataset.file({ camera, frame, label });
   const PictureLayer& layer = *dataset.layer(label);
-  const View view = isPlace(layer.spec) ? View() : viewOf(*record);
+  std::optional<PixelCamera> eye;
+  if (!isPlace(layer.spec))
+  {
+    eye.emplace(dataset, *record);
+  }
+  const View none;
   const auto [width, height] = pictureSize(path, layer);
   PictureRead read;
   read.goOn = goOn;
@@ -148,7 +213,11 @@ void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::str
     for (int column = 0; column < values.columns(); ++column)
     {
       values.get(column, row, channels.data());
-      if (const auto point = pointOf(layer.spec, view, values.x(column), values.y(row), channels.data()))
+      const int x = values.x(column);
+      const int y = values.y(row);
+      const View* const view = eye ? eye->at(x, y) : &none;
+      const auto point = view ? pointOf(layer.spec, *view, x, y, channels.data()) : std::nullopt;
+      if (point)
       {
         cloud.points.push_back(*point);
         const std::size_t i = std::size_t(row) * std::size_t(values.columns()) + std::size_t(column);

@@ -203,7 +203,13 @@ std::optional<Eigen::Vector3d> worldPoint(
   picture.get(picture.column(x), picture.row(y), values.data());
   try
   {
-    return pointOf(spec, spec.meaning == Meaning::Point ? View() : viewOf(*record), x, y, values.data());
+    if (spec.meaning == Meaning::Point)
+    {
+      return pointOf(spec, View(), x, y, values.data());
+    }
+    PixelCamera eye(dataset, *record);
+    const View* const view = eye.at(x, y);
+    return view ? pointOf(spec, *view, x, y, values.data()) : std::nullopt;
   }
   catch (const Error&)
   {

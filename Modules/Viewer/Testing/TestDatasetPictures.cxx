@@ -5,6 +5,7 @@
 #include "dgtkObjectDocuments.h"
 #include "dgtkPictureOverlay.h"
 #include "dgtkPictureValues.h"
+#include "dgtkPixelText.h"
 #include "dgtkTestDataset.h"
 #include "dgtkTestSupport.h"
 
@@ -295,6 +296,9 @@ TEST(PictureValues, LayeredImagesAreSeenInThreeWays)
     colors.get(i % SmallDataset::width, i / SmallDataset::width, value);
     EXPECT_TRUE(i % 3 == 2 ? value[0] == 255 && value[1] == 51 : std::isnan(value[0]));
   }
+  EXPECT_EQ(valueText(dataset, second, 0, 0), "0 surfaces");
+  EXPECT_EQ(valueText(dataset, second, 1, 0), "1 surface: 2 rgba(0, 51, 255, 255)");
+  EXPECT_EQ(valueText(dataset, second, 2, 0), "2 surfaces: 3 rgba(0, 51, 255, 255); 4 rgba(255, 51, 255, 255)");
   // Parts of it, thinned out.
   for (const PixelRect& window : { PixelRect{ 2, 1, 7, 5 }, PixelRect{ 11, 6, 1, 1 }, PixelRect{ 0, 3, 5, 2 } })
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of every layer: the text of its pixels, their colours and the legend.
+#include "dgtkCameraText.h"
 #include "dgtkPictureColors.h"
 #include "dgtkPixelText.h"
 #include "dgtkTestDataset.h"
@@ -235,4 +236,35 @@ TEST(PictureTables, OfEveryKindOfLayer)
   }
 }
 
+TEST(CameraText, HasTheMatricesInColumns)
+{
+  SmallDataset files;
+  files.add("left", "depth", 0, "", "npy", { "depth", PixelType::Float64, 1, "", "camera", "+inf", "", Meaning::Depth },
+    [](int, int, int) { return 2.0; });
+  CameraRecord camera = SmallDataset::left(0);
+  camera.R.setIdentity();
+  files.Cameras = { camera };
+  files.finish();
+  EXPECT_EQ(cameraText(DatasetPictures(files.path()), "left", 0).toStdString(), R"(left, frame 0
+Size: 12 x 7 pixels
+Lens: pinhole
+Distortion: none
+Near, far: 0.1, 100
+
+K (pixels from camera axes)
+  11  0.25   5.5
+   0    12  3.75
+   0     0     1
+
+R (x_camera = R x_world + t)
+  1  0  0
+  0  1  0
+  0  0  1
+
+t
+  0.5
+   -2
+    4
+)");
+}
 } // namespace

@@ -189,6 +189,12 @@ TEST_F(ViewActorsTable, ObjectsLightsCamerasGridAndAxes)
   expectVector(all[10]->GetProperty()->GetColor(), V(0.35, 0.35, 0.35), "not enabled");
   EXPECT_FALSE(all[10]->GetVisibility()) << "it has no place";
 
+  this->Scene.lights[0].diffuse.keys = { { 0, V(1, 1, 0) }, { 4, V(0.25, 1, 0) }, { 8, V(0.25, 1, 0) } };
+  this->Scene.lights[0].diffuse.interpolation = Interpolation::Smooth;
+  this->Places.frame = 6;
+  this->show(actors);
+  expectVector(all[9]->GetProperty()->GetColor(), V(0.25, 1, 0), "not beyond its keys");
+
   actors.showGrid(false);
   EXPECT_FALSE(all[0]->GetVisibility() || all[1]->GetVisibility() || all[3]->GetVisibility());
   actors.showGrid(true);
