@@ -2,6 +2,7 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
 #include "dgtkStage.h"
@@ -86,6 +87,7 @@ int runConvert(const Arguments& arguments)
   {
     throw UsageError("nothing can be converted to " + quoted(to) + " (expected a name in .scene, .json or .pov)");
   }
+  requireNoFileOfDataset(to);
   if (!pov)
   {
     writeScene(readScene(from), to);

@@ -48,8 +48,9 @@ int runMerge(const Arguments& arguments)
   }
   else if (report.merged)
   {
-    print(
-      folder + ": whole, " + std::to_string(report.files) + " files of " + std::to_string(report.blocks) + " blocks\n");
+    print(folder + (report.blocks == 0 ? ": is whole already\n"
+                                       : ": whole, " + std::to_string(report.files) + " files of " +
+                                           std::to_string(report.blocks) + " blocks\n"));
   }
   for (const std::string& problem : report.problems)
   {

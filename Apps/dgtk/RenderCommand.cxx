@@ -115,19 +115,23 @@ void printTimings(double seconds)
 {
   constexpr double mebibyte = 1 << 20;
   const std::vector<StageTime> all = workTimes();
+  char line[128];
   double sum = 0;
-  std::printf("%-8s %12s %7s %12s\n", "stage", "processors s", "share", "memory MiB");
+  std::snprintf(line, sizeof line, "%-8s %12s %7s %12s\n", "stage", "processors s", "share", "memory MiB");
+  std::string text = line;
   for (const StageTime& stage : all)
   {
     sum += stage.seconds;
   }
   for (const StageTime& stage : all)
   {
-    std::printf("%-8s %12.3f %5.1f %% %12.0f\n", stage.name.c_str(), stage.seconds,
+    std::snprintf(line, sizeof line, "%-8s %12.3f %5.1f %% %12.0f\n", stage.name.c_str(), stage.seconds,
       100 * stage.seconds / std::max(sum, 1e-9), double(stage.peakBytes) / mebibyte);
+    text += line;
   }
-  std::printf(
-    "%-8s %12.3f %7s %12.0f (%.3f s by the clock)\n", "all", sum, "", double(all.back().peakBytes) / mebibyte, seconds);
+  std::snprintf(line, sizeof line, "%-8s %12.3f %7s %12.0f (%.3f s by the clock)\n", "all", sum, "",
+    double(all.back().peakBytes) / mebibyte, seconds);
+  print(text + line);
 }
 
 GeneratorResult generated(
@@ -143,6 +147,10 @@ GeneratorResult generated(
   }
   catch (const FolderError& error)
   {
+    if (error.contents() == FolderContents::Running)
+    {
+      throw AgainError(error.what());
+    }
     throw UsageError(error.what() + wayOut(error.contents(), shard.has_value()));
   }
 }

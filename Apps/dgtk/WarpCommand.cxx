@@ -7,6 +7,7 @@
 #include "dgtkFile.h"
 #include "dgtkJson.h"
 #include "dgtkLdi.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkText.h"
 #include "dgtkWarp.h"
 
@@ -251,7 +252,7 @@ void save(const std::string& path, const WarpedImage& image, const std::vector<s
   writer->finish();
 }
 
-/// Both pictures are PNG, and neither is the other one, or the image that is read.
+/// Both pictures are PNG, and neither is the other one, the image that is read, or another file of a dataset.
 void checkNames(const std::string& ldi, const std::string& picture, const std::string& mask)
 {
   namespace fs = std::filesystem;
@@ -270,6 +271,7 @@ void checkNames(const std::string& ldi, const std::string& picture, const std::s
     {
       throw UsageError(name + ": a picture is written as .png");
     }
+    requireNoFileOfDataset(name);
   }
 }
 

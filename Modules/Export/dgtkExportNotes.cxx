@@ -23,13 +23,6 @@ namespace
 {
 using NoteJson = nlohmann::json;
 
-/// Begins like the journal: a folder that holds nothing else holds nothing.
-const std::string& notesName()
-{
-  static const std::string name = std::string(journalName) + "-notes";
-  return name;
-}
-
 NoteJson jsonOf(const ItemRecord& record)
 {
   NoteJson json{ { "files", NoteJson::array() }, { "rounding", NoteJson::array() } };
@@ -108,9 +101,9 @@ ExportNotes::ExportNotes(const std::string& folder, const std::string& requestHa
 {
   if (!resume)
   {
-    this->Holder.remove(notesName());
+    this->Holder.remove(notesName);
   }
-  this->File = this->Holder.open(notesName(), O_RDWR | O_CREAT);
+  this->File = this->Holder.open(notesName, O_RDWR | O_CREAT);
   if (!this->File)
   {
     this->fail();
@@ -135,7 +128,7 @@ void ExportNotes::begin(const std::string& requestHash)
 
 void ExportNotes::fail() const
 {
-  throw MachineError(this->Holder.pathOf(notesName()) + ": cannot be written: " + std::strerror(errno));
+  throw MachineError(this->Holder.pathOf(notesName) + ": cannot be written: " + std::strerror(errno));
 }
 
 /// A record is the item's number, its size and that of its bytes, little-endian, then the bytes.
@@ -198,7 +191,7 @@ std::string ExportNotes::bytesAt(std::uint64_t offset, std::uint64_t bytes) cons
       ::pread(this->File.number(), text.data() + done, text.size() - done, static_cast<off_t>(offset + done));
     if (got <= 0)
     {
-      throw MachineError(this->Holder.pathOf(notesName()) + ": cannot be read back");
+      throw MachineError(this->Holder.pathOf(notesName) + ": cannot be read back");
     }
     done += static_cast<std::size_t>(got);
   }
@@ -213,7 +206,7 @@ ExportNotes::Place ExportNotes::placeOf(std::size_t item) const
   return { this->Places[item] + sizeof head, head[1] };
 }
 
-void ExportNotes::failDamaged() const { throw InputError(this->Holder.pathOf(notesName()), "is damaged; start over"); }
+void ExportNotes::failDamaged() const { throw InputError(this->Holder.pathOf(notesName), "is damaged; start over"); }
 
 ItemRecord ExportNotes::read(std::size_t item) const
 {
@@ -259,6 +252,6 @@ void ExportNotes::forNotes(
   }
 }
 
-void ExportNotes::remove() { this->Holder.remove(notesName()); }
+void ExportNotes::remove() { this->Holder.remove(notesName); }
 
 } // namespace dgtk

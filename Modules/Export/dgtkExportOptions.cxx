@@ -139,7 +139,7 @@ void addNeeds(const std::vector<std::string>& formats, std::vector<std::string>&
   const ExportNeeds needs = needsOf(formats);
   for (const std::string& layer : needs.layers)
   {
-    if (std::find(layers.begin(), layers.end(), layer) == layers.end())
+    if (std::find(layers.begin(), layers.end(), layer) == layers.end() && layers != std::vector<std::string>{ "all" })
     {
       layers.push_back(layer);
     }

@@ -488,7 +488,6 @@ void ExportRun::close()
         });
       document.write(exportTail(hash.hex()));
     });
-  this->Notes->remove();
   this->Result.layers = record.layers;
 }
 

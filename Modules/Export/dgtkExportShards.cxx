@@ -240,6 +240,7 @@ MergeReport mergeScenes(const std::string& folder, const RunParts& run)
     const std::size_t block = i / run.blockSize();
     if (holdsExport(one.folder, ExportRun(one, {}).hash(), true))
     {
+      removeLeftJournal(one.folder, exportName);
       report.files += filesIn(one.folder);
     }
     else if (report.missing.empty() || report.missing.back() != block)
@@ -250,7 +251,7 @@ MergeReport mergeScenes(const std::string& folder, const RunParts& run)
   report.merged = report.missing.empty();
   if (report.merged)
   {
-    fs::remove_all(folder + '/' + partsName);
+    removeParts(folder);
   }
   return report;
 }
@@ -312,9 +313,10 @@ MergeReport mergeItems(const std::string& folder, const RunParts& run)
   }
   if (fs::exists(whole, code))
   {
+    removeLeftJournal(whole, exportName);
     moveUp(whole, folder);
   }
-  fs::remove_all(folder + '/' + partsName);
+  removeParts(folder);
   report.files = filesIn(folder);
   report.merged = true;
   return report;

@@ -112,6 +112,7 @@ bool linkFile(const std::string& path, const Folder& folder, const std::string& 
     return false;
   }
   folder.rename(partial, name);
+  folder.remove(partial); // rename() does nothing where both are the same file already
   return true;
 }
 

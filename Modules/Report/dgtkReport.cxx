@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkLayerColors.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkReportChecks.h"
 #include "dgtkReportObjects.h"
 #include "dgtkReportPage.h"
@@ -300,6 +301,7 @@ ReportJson swatches()
 ReportResult writeReport(const ReportRequest& request, const ReportProgress& progress)
 {
   ReportResult result;
+  requireNoFileOfDataset(request.file);
   const ReportJson verification = verificationOf(request); // what is wrong with documents is said before the work
   const ReportJson exports = exportsOf(request);
   const ReportJson samples = samplesOf(request);

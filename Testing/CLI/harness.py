@@ -2,11 +2,14 @@
 """What the whole-program cases share: running dgtk, temporary folders, comparing datasets byte by byte."""
 import atexit
 import contextlib
+import ctypes
 import functools
 import hashlib
 import json
 import os
+import select
 import shutil
+import struct
 import subprocess
 import tempfile
 import time
@@ -85,6 +88,25 @@ class Case(unittest.TestCase):
             if process.returncode != 0 and not os.path.exists(os.path.join(folder, "manifest.json")):
                 return process.returncode, errors
         self.fail(f"dgtk {' '.join(words)}: ran to its end {tries} times, {how.name} or not")
+
+    @contextlib.contextmanager
+    def goes_at_once(self, folder):
+        """What is done within removes the folder, and moves it away first: at no time some of it is lost."""
+        system = ctypes.CDLL(None)
+        removed, moved = 0x200, 0x800  # IN_DELETE, IN_MOVE_SELF
+        events = system.inotify_init1(os.O_NONBLOCK)
+        self.assertGreaterEqual(events, 0, "there are too many watches")
+        self.addCleanup(os.close, events)
+        self.assertGreaterEqual(system.inotify_add_watch(events, os.fsencode(folder), removed | moved), 0)
+        yield
+        self.assertTrue(select.select([events], [], [], 0)[0], "nothing goes")
+        found, seen = os.read(events, 1 << 16), []
+        while found:
+            _, mask, _, size = struct.unpack_from("iIII", found)
+            name, found = os.fsdecode(found[16:16 + size].rstrip(b"\0")), found[16 + size:]
+            seen += [(mask & (removed | moved), name)] if not name.startswith("workers-") else []
+        self.assertEqual(seen[:1], [(moved, "")])
+        self.assertFalse(os.path.exists(folder))
 
     def assert_same_files(self, first, second, ignore=()):
         """Both folders hold the same files with the same bytes."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Errors in documents, masks, clouds and tracks, for test_referee.py."""
 import json
+import shutil
 import struct
 
 import numpy as np
@@ -176,6 +177,15 @@ def models():
 
     yield Plant("models", "shapes", 0, edit(0, "<d", 1e-14), bad=0)
     yield Plant("models", "looks", 0.500001, edit(52, "B", 2), bad=0, small=False)
+
+    def stray(data, _):
+        """A model of no object."""
+        name = "models/stray.ply"
+        shutil.copyfile(data.path(data.object(1)["geometry_file"]), data.touch(name))
+        data.document("manifest.json", lambda document: document["files"].append({"path": name}))
+        return "objects.json", None
+
+    yield Plant("models", "shapes", 0, stray, small=False)
 
 
 def masks():

@@ -126,6 +126,13 @@ class Dataset(Case):
                      "--triangles-format", "png", status=2, says=["layer triangles", "66247", "largest 65534", ".npy"])
         self.assertFalse(os.path.exists(self.path("out")))
 
+    def test_all_layers_are_those_of_a_format_too(self):
+        self.write("quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        scene = self.write("scene.json", json.dumps({
+            "objects": [{"name": "quad", "model": "quad.obj"}], "cameras": [{"name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0], "width": 16, "height": 12}]}))
+        self.dgtk("render", scene, "-o", self.path("out"), "--layers", "all", "--for", "coco", "--quiet")
+        self.dgtk("export", self.path("out"), "--format", "coco", "-o", self.path("coco"), "--quiet")
+
     def test_orientation(self):
         """A red quad in the upper left of the view is in the upper left of the picture."""
         self.write("q.obj", "mtllib q.mtl\nusemtl red\nv -3 1 0\nv -1 1 0\nv -1 2 0\nv -3 2 0\nf 1 2 3 4\n")

@@ -10,7 +10,7 @@ import tempfile
 import zlib
 
 import numpy
-from harness import DGTK, SCENES, Case, main
+from harness import DGTK, SCENES, Case, load_json, main
 
 RECORD = numpy.dtype([("rgba", "u1", 4), ("depth", "<f8"), ("splat", "<u4")])
 
@@ -353,6 +353,8 @@ class Warp(Case):
                            (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
                                         "t": [0, 0, 0], "width": 0, "height": 4}), "width is out of range")):
             self.refused("warp", self.ldi, "--to", self.write("c.json", text), *out, status=3, says=["c.json", says])
+        other = next(row["path"] for row in load_json(self.path("d", "manifest.json"))["files"] if row["path"].endswith(".png"))
+        self.refused("warp", self.ldi, "--to", "left", "-o", self.path("d", other), status=2, says=(other, "is a file of the dataset in"))
         mask, here = self.path("m.png"), os.path.relpath(self.path("m.png"))
         before = os.path.getsize(self.ldi)
         for picture, holes in ((mask, here), (self.ldi, mask), (mask, self.ldi)):

@@ -174,6 +174,12 @@ class Referee(Case):
                         self.assertEqual(rows[plant.row]["bad"], plant.bad)
                     shutil.rmtree(data.root)
 
+    def test_models_that_end_too_early(self):
+        data = self.copy("all", "cut")
+        name, _ = data.bytes(data.object(1)["geometry_file"], lambda content: content[:-1])
+        data.accept()
+        self.refused("verify", data.root, "--check", "models", status=1, says=[name, "ends too early"])
+
     def test_only_some_checks(self):
         folder = os.path.join(self.folders, "closed")
         report, rows = self.verify(folder, "--check", "depth,ldi", status=0)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad scenes and a machine that cannot: one line, the right status, and nothing harmed."""
+import contextlib
 import json
 import os
 import subprocess
 
-from harness import DGTK, SCENES, Case, digests, main
+from harness import DGTK, SCENES, Case, digests, load_json, main
 
 QUAD = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n"
 CAMERA = {"name": "c", "fovY": 60, "near": 0.1, "far": 100, "eye": [0, 0, 5], "lookAt": [0, 0, 0], "up": [0, 1, 0]}
@@ -74,12 +75,19 @@ class Machine(Case):
         with open(blocked, encoding="utf-8") as file:
             self.assertEqual(file.read(), "kept")
 
-    def test_full_disk(self):
+    @contextlib.contextmanager
+    def small_disk(self, size):
         os.mkdir(self.path("small"))
         if os.geteuid() != 0 or subprocess.run(
-                ["mount", "-t", "tmpfs", "-o", "size=256k", "none", self.path("small")], capture_output=True).returncode:
+                ["mount", "-t", "tmpfs", "-o", f"size={size}", "none", self.path("small")], capture_output=True).returncode:
             self.skipTest("only root may mount a small disk")
         try:
+            yield
+        finally:
+            subprocess.run(["umount", self.path("small")], check=True)
+
+    def test_full_disk(self):
+        with self.small_disk("256k"):
             words = ("render", os.path.join(SCENES, "demo.json"), "-o", self.path("small", "out"), "--quiet", "--frames", "0", "--size", "640x480")
             self.refused(*words, "--layers", "depth", status=4, says=("needs at least 4.92 MB", "there are 262 KB"))
             self.assertFalse(os.path.exists(self.path("small", "out")))
@@ -87,8 +95,14 @@ class Machine(Case):
             self.assertIn(".exr", line)
             left = [n for n in digests(self.path("small")) if n.endswith((".exr", "manifest.json"))]
             self.assertEqual(left, [], "half-written files")
-        finally:
-            subprocess.run(["umount", self.path("small")], check=True)
+
+    def test_a_disk_that_may_be_too_small_is_not_in_the_manifest(self):
+        """It is the same on every disk."""
+        self.write("quad.obj", QUAD)
+        words = ("render", self.write("scene.json", json.dumps(scene())), "--layers", "color", "--size", "640x480", "--frames", "0")
+        with self.small_disk("128k"):
+            self.assertIn("warning: " + self.path("small", "out") + ": the dataset needs some", self.dgtk(*words, "-o", self.path("small", "out")).stderr)
+            self.assertEqual(load_json(self.path("small", "out", "manifest.json"))["warnings"], [])
 
     def limited(self, limit, *words, status):
         """dgtk with less of something than usual; what it says."""

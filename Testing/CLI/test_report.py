@@ -205,6 +205,15 @@ class Report(Case):
             self.assertEqual(camera["model"], record["model"])
             self.assertAlmostEqual(camera["half"], np.arctan(record["width"] / 2 / record["K"][0][0]), places=5)
 
+    def test_pictures_that_cannot_be_read(self):
+        """A layer of nothing else has no numbers, not those of nothing."""
+        folder = self.render(layers="color,depth")
+        for row in load_json(os.path.join(folder, "manifest.json"))["files"]:
+            if row.get("camera"):
+                self.write(os.path.join(folder, row["path"]), "no picture")
+        layers = model_of(self.report(folder))["layers"]
+        self.assertEqual([(one["label"], one["pictures"], "numbers" in one or "brightness" in one) for one in layers], [("color", 0, False), ("depth", 0, False)])
+
     def test_fewer_samples_than_pixels(self):
         folder = self.path("large")
         self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--layers", "color,depth", "--size", "1500x300", "--cameras", "left", "--frames", "0",
@@ -387,6 +396,10 @@ class Report(Case):
         self.refused("report", folder, "-o", self.path("no", "where", "page.html"), status=4, says="page.html")
         self.refused("report", folder, "-o", page, "--verification", os.path.join(folder, "objects.json"), status=3, says="is not what a verification")
         self.refused("report", folder, "-o", page, "--pictures", "0", status=2, says="--pictures")
+        for name in ("manifest.json", "left/depth/000000.npy"):
+            self.refused("report", folder, "-o", os.path.join(folder, name), status=2, says="is a file of the dataset in")
+        self.refused("convert", os.path.join(SCENES, "demo.json"), os.path.join(folder, "scene.json"), status=2, says="is a file of the dataset in")
+        self.dgtk("verify", folder)
         # a damaged picture is a note, and the rest is there
         with open(os.path.join(folder, "left/depth/000000.npy"), "r+b") as file:
             file.truncate(100)
@@ -404,7 +417,7 @@ class Report(Case):
 
 class Page(Report):
     """The same datasets in a browser."""
-    test_numbers = test_fewer_samples_than_pixels = test_subset_and_same_bytes = test_folder_of_scenes = test_documents_beside = test_refusals = None
+    test_numbers = test_pictures_that_cannot_be_read = test_fewer_samples_than_pixels = test_subset_and_same_bytes = test_folder_of_scenes = test_documents_beside = test_refusals = None
     test_all_pictures_together_are_of_three_million_samples = test_plans = test_what_is_left_out_of_long_lists = None
 
     def setUp(self):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An interrupted run is completed by --resume, and ends in the bytes of an uninterrupted one."""
+import fcntl
 import json
 import os
 import re
@@ -50,6 +51,14 @@ class Resume(Case):
                 self.assert_same_files(self.path("whole"), folder)
                 kept = [n for n, t in before.items() if os.stat(os.path.join(folder, n)).st_mtime_ns == t]
                 self.assertGreater(len(kept), 0, "nothing was kept")
+
+    def test_two_runs_in_a_folder(self):
+        """The later one may be tried again, when the first has ended."""
+        folder = self.path("busy")
+        os.mkdir(folder)
+        with open(self.write("busy/.dgtk-journal", f"DGTk journal 1 {64 * '0'}\n"), encoding="ascii") as journal:
+            fcntl.flock(journal, fcntl.LOCK_EX)
+            self.refused("render", SCENE, "-o", folder, *OPTIONS, status=75, says="another run is writing into this folder")
 
     def test_interrupt_within_a_picture(self):
         """A large picture is not waited for."""

@@ -48,6 +48,13 @@ class Sample(Case):
         self.dgtk("sample", scene, "-o", self.path("other"), "--samples", "700", "--seed", "8", "--quiet")
         self.assertNotEqual(digests(self.path("other")), digests(self.path("alone")))
 
+    def test_a_run_that_was_killed_at_its_beginning(self):
+        """There is a part of its record alone."""
+        os.mkdir(self.path("out"))
+        self.write("out/samples.json.partial", "{")
+        self.dgtk("sample", self.scene(), "-o", self.path("out"), "--samples", "0", "--quiet")
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["000000.json", "samples.json"])
+
     def test_what_is_required_is_what_the_layers_say(self):
         self.dgtk("sample", self.scene(), "-o", self.path("out"), "--samples", "0:4", "--quiet")
         with open(self.path("out/samples.json")) as file:

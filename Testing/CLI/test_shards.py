@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from harness import DGTK, Case, load_json, main
+from harness import DGTK, Case, digests, load_json, main
 
 SOURCE = os.environ["DGTK_SOURCE"]
 DEMO = os.path.join(SOURCE, "Data", "Scenes", "demo.json")
@@ -58,9 +58,29 @@ class Shards(Case):
         self.assertEqual((report["merged"], report["missing"], report["array"]), (False, [2], {"8": "2"}))
         self.assertFalse(os.path.exists(self.path("parts", "manifest.json")))
         self.shard(DEMO, self.path("parts"), 2, 3)
-        self.dgtk("merge", self.path("parts"))
+        with self.goes_at_once(self.path("parts", ".dgtk-parts")):
+            self.dgtk("merge", self.path("parts"))
         self.assert_same_files(whole, self.path("parts"))
-        self.assertEqual(os.path.exists(self.path("parts", ".dgtk-parts")), False)
+        # Killed while the parts were removed, or called once more.
+        for further in ("--shard 2/8", "--resume", None):
+            os.makedirs(self.path("parts", ".dgtk-parts-merged", "000001"))
+            self.write("parts/.dgtk-parts-merged/000001/cameras.json", "{}")
+            if further:
+                self.dgtk("verify", self.path("parts"))
+                self.dgtk("render", DEMO, "-o", self.path("parts"), *OPTIONS, *further.split())
+                self.assert_same_files(whole, self.path("parts"))
+        self.assertEqual(self.dgtk("merge", self.path("parts")).stdout, self.path("parts") + ": is whole already\n")
+        self.assertFalse(os.path.exists(self.path("parts", ".dgtk-parts-merged")))
+        report = json.loads(self.dgtk("merge", self.path("parts"), "--json").stdout)
+        files = len(load_json(self.path("parts", "manifest.json"))["files"])
+        self.assertEqual(report, {"merged": True, "blocks": 0, "files": files, "missing": [], "problems": []})
+        export = ("export", whole, "--format", "yolo", "-o", self.path("yolo"), "--quiet")
+        self.dgtk(*export)
+        os.makedirs(self.path("yolo", ".dgtk-parts-merged"))
+        self.write("yolo/.dgtk-parts-merged/left.txt", "")
+        self.dgtk("verify", whole, "--export", self.path("yolo"))
+        self.dgtk(*export)
+        self.assertFalse(os.path.exists(self.path("yolo", ".dgtk-parts-merged")))
 
     def test_what_is_of_another_run(self):
         """A share replaces nothing: it says what may be done."""
@@ -86,10 +106,15 @@ class Shards(Case):
             self.dgtk("merge", self.path(name))
 
     def test_packed_inputs(self):
-        options = ("--layers", "depth", "--size", "32x24", "--quiet", "--pack")
+        """What all parts would have alike is in the first one."""
+        options = ("--layers", "depth", "--size", "32x24", "--quiet", "--pack", "--models")
         self.dgtk("render", DEMO, "-o", self.path("whole"), *options)
         for index in range(2):
             self.shard(DEMO, self.path("parts"), index, 2, options)
+        common = {"cameras.json", "objects.json", "poses.json", "scene.json", "inputs", "models"}
+        self.assertLess(common, {name.split("/")[0] for name in digests(self.path("whole"))})
+        made = [name.split("/") for name in digests(self.path("parts", ".dgtk-parts"))]
+        self.assertEqual({block for block, *names in made if common & set(names)}, {"000000"})
         self.dgtk("merge", self.path("parts"))
         self.assert_same_files(self.path("whole"), self.path("parts"))
 
@@ -121,7 +146,8 @@ class Shards(Case):
         parts = os.path.join(self.path("parts"), ".dgtk-parts")
         victim = next(os.path.join(folder, name) for folder, _, names in sorted(os.walk(parts)) for name in sorted(names) if name.endswith(".npy"))
         flip(victim, 1)
-        self.refused("merge", self.path("parts"), status=1, says=("1 of 6 blocks are missing",))
+        with self.goes_at_once(victim[:len(parts) + len("/000000")]):
+            self.refused("merge", self.path("parts"), status=1, says=("1 of 6 blocks are missing",))
         for index in range(2):
             self.shard(DEMO, self.path("parts"), index, 2, options)
         self.dgtk("merge", self.path("parts"))
@@ -155,7 +181,9 @@ class Shards(Case):
     def test_a_folder_of_scenes(self):
         scenes = self.scenes(3)
         options = ("--layers", "depth,objects", "--size", "32x24", "--quiet")
-        self.dgtk("render", scenes, "-o", self.path("all"), *options)
+        os.makedirs(self.path("all", ".dgtk-parts"))
+        with self.goes_at_once(self.path("all", ".dgtk-parts")):
+            self.dgtk("render", scenes, "-o", self.path("all"), *options)
         manifest = load_json(self.path("all", "manifest.json"))
         self.assertEqual([one["path"] for one in manifest["datasets"]], [f"{k:06}/manifest.json" for k in range(3)])
         self.assertEqual(manifest["left_out"], ["samples.json"])
@@ -183,6 +211,74 @@ class Shards(Case):
         depth = self.path("all", "000001", "left", "depth", "000000.npy")
         flip(depth, 64)
         self.assertIn("1 with a breach", self.dgtk("verify", self.path("all"), status=1).stdout)
+
+    def test_a_model_that_changes(self):
+        """Is another request: nothing is changed, and no datasets are merged that do not belong together."""
+        scenes = self.scenes(2)
+        options = ("--layers", "depth", "--size", "32x24", "--quiet")
+        self.dgtk("render", scenes, "-o", self.path("all"), *options)
+        self.shard(scenes, self.path("parts"), 0, 2, options)
+        before = digests(self.path("all"))
+        self.write("models/quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 2 0\nf 1 2 3 4\n")
+        for more in ((), ("--resume",), ("--shard", "0/1"), ("--shard", "1/2")):
+            with self.subTest(more=more):
+                name = "000001" if "1/2" in more else "000000"
+                self.refused("render", scenes, "-o", self.path("all"), *options, *more, status=2,
+                             says=self.path("all", name) + ": holds the finished dataset of another request")
+                self.assertEqual(digests(self.path("all")), before)
+        self.shard(scenes, self.path("parts"), 1, 2, options)
+        self.refused("merge", self.path("parts"), status=1, says=self.path("parts", "000001") + ": is of another version of " +
+                     self.path("models", "quad.obj") + " than " + self.path("parts", "000000") + "; ")
+        self.assertFalse(os.path.exists(self.path("parts", "manifest.json")))
+        shutil.rmtree(self.path("parts", "000000"))
+        self.shard(scenes, self.path("parts"), 0, 2, options)
+        self.dgtk("merge", self.path("parts"))
+        self.dgtk("render", scenes, "-o", self.path("all"), *options, "--replace")
+        self.assert_same_files(self.path("all"), self.path("parts"))
+
+    def test_datasets_of_another_request(self):
+        """As a replacing that was killed has left them, are not merged with those of the run."""
+        scenes = self.scenes(2)
+        options = ("--size", "32x24", "--quiet", "--layers")
+        self.dgtk("render", scenes, "-o", self.path("all"), *options, "depth")
+        self.shard(scenes, self.path("other"), 0, 2, (*options, "distance"))
+        shutil.rmtree(self.path("all", "000000"))
+        for name in (".dgtk-parts", "000000"):
+            shutil.copytree(self.path("other", name), self.path("all", name))
+        before = digests(self.path("all"))
+        self.refused("merge", self.path("all"), status=1,
+                     says=self.path("all", "000001") + ": is of another request: layers (expected distance, found depth)")
+        self.assertEqual(digests(self.path("all")), before)
+        self.dgtk("render", scenes, "-o", self.path("all"), *options, "distance", "--replace")
+        self.dgtk("render", scenes, "-o", self.path("one"), *options, "distance")
+        self.assert_same_files(self.path("all"), self.path("one"))
+
+    def test_a_request_in_many_words(self):
+        """The datasets of a run say it otherwise than the run."""
+        scenes = self.scenes(2)
+        other = load_json(os.path.join(scenes, "000001.json"))
+        other["cameras"][0].update(model="fisheye", fovY=150)
+        self.write("scenes/000001.json", json.dumps(other))
+        self.write("numbers.json", '{"tile": 5}')
+        for words in ("--size 16x12", "--size 16x12 --layers all --frames 0",
+                      "--layers depth,color --cameras right --color-format exr,png --samples 02 --exposure 1.50 --pack --models --visibility auto "
+                      "--size 16x12 --classes " + self.path("numbers.json"),
+                      "--layers color_noisy --color-format exr --size 16x12 --seed 3"):
+            with self.subTest(words):
+                shutil.rmtree(self.path("parts"), ignore_errors=True)
+                for index in range(2):
+                    self.shard(scenes, self.path("parts"), index, 2, ("--quiet", *words.split()))
+                self.dgtk("merge", self.path("parts"))
+
+    def test_the_record_of_an_unfinished_run_is_replaced(self):
+        """At once: a folder that lost it could neither go on nor be replaced."""
+        scenes = self.scenes(2)
+        options = ("--size", "32x24", "--quiet", "--layers")
+        self.shard(scenes, self.path("run"), 0, 2, (*options, "objects"))
+        with self.goes_at_once(self.path("run", ".dgtk-parts")):
+            self.dgtk("render", scenes, "-o", self.path("run"), *options, "depth", "--replace")
+        self.dgtk("render", scenes, "-o", self.path("whole"), *options, "depth")
+        self.assert_same_files(self.path("whole"), self.path("run"))
 
     def test_one_numbering_of_classes(self):
         """Of all scenes of the folder, whichever share; as a run of its own with the same numbers; contradictions are named."""
@@ -234,7 +330,8 @@ class Shards(Case):
         flip(self.path("parts", "000001", "left", "depth", "000000.npy"), 1)
         self.refused("merge", self.path("parts"), status=1, says=("1 of 3 blocks are missing", "--array=1"))
         self.shard(scenes, self.path("parts"), 1, 2, options)
-        self.dgtk("merge", self.path("parts"))
+        with self.goes_at_once(self.path("parts", ".dgtk-parts")):
+            self.dgtk("merge", self.path("parts"))
         self.assert_same_files(self.path("whole"), self.path("parts"))
 
     def test_a_scene_that_cannot_be_rendered_is_named(self):

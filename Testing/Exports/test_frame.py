@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What holds for every exporter: the same bytes however it ran, refusals in one line, nothing that looks whole and is not."""
+import fcntl
 import json
 import os
 import random
 import resource
 import shutil
+import struct
 import subprocess
 import time
 
@@ -132,6 +134,24 @@ class Frame(datasets.ExportCase):
         [row] = [one for one in self.referee(dataset, folder, 1)["residuals"] if one["layer"] == "record"]
         self.assertEqual((row["bad"], row["worst"]["value"]), (1, "some names are no files (Kamera 1)"))
 
+    def damaged_notes(self, command, unfinished):
+        """What says more of itself than there is ends a run that goes on."""
+        damaged = shutil.copytree(unfinished, self.path("damaged"))
+        path = os.path.join(damaged, ".dgtk-journal-notes")
+        with open(path, "rb") as file:
+            sound = file.read()
+        begin = 64 + 16  # behind the request's hash and the first record's head
+        end = begin + struct.unpack_from("Q", sound, begin - 8)[0]
+        note = begin + 8 + struct.unpack_from("Q", sound, begin)[0]
+        while note < end:  # sizes of the list's name and of a text, name, text
+            last, sizes = note, struct.unpack_from("QQ", sound, note)
+            note += 16 + sum(sizes)
+        self.assertEqual(note, end)
+        for at, data in ((begin, b"\xff" * 16), (last, struct.pack("Q", sum(sizes) + 1)), (last + 8, struct.pack("Q", sizes[1] + 1))):
+            with open(path, "wb") as file:
+                file.write(sound[:at] + data + sound[at + len(data):])
+            self.refused(*command[1:], "-o", damaged, "--resume", status=3, says=".dgtk-journal-notes: is damaged; start over")
+
     def test_killed_twenty_times_and_resumed(self):
         scene = datasets.walk(self.path("scene"), frames=60, empty=False)
         dataset = self.render(scene)
@@ -149,11 +169,7 @@ class Frame(datasets.ExportCase):
             unfinished = not os.path.exists(os.path.join(part, "export.json"))
             killed += unfinished
             if unfinished and i == KILLS // 2:
-                damaged = shutil.copytree(part, self.path("damaged"))
-                with open(os.path.join(damaged, ".dgtk-journal-notes"), "r+b") as notes:
-                    notes.seek(64 + 16)  # behind the request's hash and the first record's head
-                    notes.write(b"\xff" * 16)
-                self.refused(*command[1:], "-o", damaged, "--resume", status=3, says=".dgtk-journal-notes: is damaged; start over")
+                self.damaged_notes(command, part)
             subprocess.run([*command, "-o", part, "--resume"], check=True)
             self.assert_same_files(whole, part)
         self.assertGreater(killed, KILLS // 2)
@@ -193,6 +209,20 @@ class Frame(datasets.ExportCase):
         self.dgtk("export", dataset, "--format", "coco", "-o", part, "--quiet", "--shard", "0/2")  # whole already
         self.assert_same_files(whole, part)
 
+    def test_links_are_made_again(self):
+        """Of an export that was killed, which knows what it was going to write."""
+        dataset = self.render(datasets.walk(self.path("scene")))
+        command = ("export", dataset, "--format", "imagefolder", "--link", "--quiet", "-o", self.path("linked"))
+        self.dgtk(*command)
+        whole, record = digests(self.path("linked")), load_json(self.path("linked", "export.json"))
+        linked = [one["path"] for one in record["files"] if os.stat(self.path("linked", one["path"])).st_nlink > 1]
+        self.assertGreater(len(linked), 0)
+        os.remove(self.path("linked", "export.json"))
+        self.write("linked/.dgtk-journal", f"DGTk journal 1 {record['request_hash']}\n" +
+                   "".join(f"planned\t{one['path']}\n" for one in record["files"]))
+        self.dgtk(*command, "--resume")
+        self.assertEqual(digests(self.path("linked")), whole)
+
     def test_another_export_is_not_mixed_in(self):
         dataset = self.render(datasets.walk(self.path("scene")))
         folder, _ = self.export(dataset, "coco")
@@ -200,12 +230,21 @@ class Frame(datasets.ExportCase):
         self.refused("export", dataset, "--format", "coco", "-o", folder, "--masks", "polygon", status=2, says=("another request", "--replace"))
         self.dgtk("export", dataset, "--format", "coco", "-o", self.path("steps"), "--quiet", "--frames", "0:2:2")
         self.refused("export", dataset, "--format", "coco", "-o", self.path("steps"), "--frames", "0:2:1", "--resume", status=2, says="another request")
+        with open(os.path.join(self.path("steps"), ".dgtk-journal"), "w", encoding="ascii") as journal:
+            fcntl.flock(journal, fcntl.LOCK_EX)
+            self.refused("export", dataset, "--format", "coco", "-o", self.path("steps"), status=75, says="another run is writing into this folder")
         self.refused("export", dataset, "--format", "coco", "-o", dataset, status=2, says="the dataset's own folder")
         self.refused("export", dataset, "--format", "coco", "-o", self.path("scene"), status=2, says="name a new or an empty folder")
         self.assertEqual(digests(folder), before)
         self.write(os.path.join(os.path.basename(folder), "notes.txt"), "mine")
         self.dgtk("export", dataset, "--format", "coco", "-o", folder, "--masks", "polygon", "--replace", "--quiet")
         self.assertTrue(os.path.exists(os.path.join(folder, "notes.txt")))
+        planned = sorted(one["path"] for one in load_json(os.path.join(folder, "export.json"))["files"] if one["path"].endswith(".png"))
+        for name in (planned[0], planned[-1]):  # each is looked for
+            jpegs = self.path("jpegs of " + os.path.basename(name))
+            self.dgtk("export", dataset, "--format", "coco", "--image-format", "jpg", "-o", jpegs, "--quiet")
+            self.write(os.path.join(jpegs, name), "mine")
+            self.refused("export", dataset, "--format", "coco", "-o", jpegs, "--replace", status=2, says=(name, "is in the way"))
         self.refused("verify", self.render(datasets.stereo(self.path("other"))), "--export", folder, status=2, says="another dataset")
 
     def test_refusals(self):

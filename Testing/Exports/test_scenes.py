@@ -2,6 +2,7 @@
 """Datasets of many scenes: one export of all where pictures stand side by side, else one a scene."""
 import json
 import os
+import shutil
 
 import datasets
 from datasets import load_json, main
@@ -95,6 +96,12 @@ class Scenes(datasets.ExportCase):
         self.assertEqual(sorted(os.listdir(self.path("h"))), ["s0", "s1", "s2"])
         self.dgtk("verify", self.path("all"), "--export", self.path("h"))
 
+    def left_by_a_kill(self, folder):
+        """What stands beside export.json before the last steps."""
+        for name in (".dgtk-journal", ".dgtk-journal.partial", ".dgtk-journal-notes"):
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(f"DGTk journal 1 {load_json(os.path.join(folder, 'export.json'))['request_hash']}\n")
+
     def test_shares(self):
         """Of scenes, or of what they become together."""
         for form in ("hdf5", "bop"):
@@ -111,12 +118,21 @@ class Scenes(datasets.ExportCase):
                     damaged.write(b"!")
                 self.refused("merge", shares, status=1, says=("1 of 3 blocks", "--array=1"))
                 self.dgtk(*command, shares, "--shard", "1/2")
-            self.dgtk("merge", shares)
+                self.left_by_a_kill(os.path.join(shares, "s0"))
+            with self.goes_at_once(os.path.join(shares, ".dgtk-parts")):
+                self.dgtk("merge", shares)
+            self.assert_same_files(whole, shares)
+            os.mkdir(os.path.join(shares, ".dgtk-parts-merged"))  # by a merge that was killed at its end
+            self.assertEqual(self.dgtk("merge", shares).stdout, f"{shares}: is whole already\n")
             self.assert_same_files(whole, shares)
             self.dgtk(*command, shares, "--shard", "0/2")
             self.assert_same_files(whole, shares)
             alone = self.path(form + "-alone")  # all of it is a share, too
             self.dgtk(*command, alone, "--shard", "0/1")
+            if form == "bop":  # put together, and killed before it went where it belongs
+                together = os.path.join(alone, ".dgtk-parts", "whole")
+                shutil.copytree(whole, together)
+                self.left_by_a_kill(together)
             self.dgtk("merge", alone)
             self.assert_same_files(whole, alone)
 

@@ -35,7 +35,7 @@ bool holdsNothing(const std::string& folder)
     [&](const fs::directory_entry& entry)
     {
       const std::string name = entry.path().filename().string();
-      return name.rfind(journalName, 0) == 0 || (name == partsName && !holdsParts(folder));
+      return name.rfind(journalName, 0) == 0 || name == mergedName || (name == partsName && !holdsParts(folder));
     });
 }
 

@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkFolderRecords.h"
 #include "dgtkHash.h"
+#include "dgtkRunParts.h"
 #include "dgtkSyncAhead.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <mutex>
 
 #include <fcntl.h>
@@ -80,6 +82,22 @@ void checkNames(const Folder& folder, const std::string& document, const NameTab
   readFolderRecords(folder, document, [&](DatasetFile&& file, ListedIn) { check.add(file.path); });
   names([&](const std::string& name) { check.add(name); });
   check.finish();
+}
+
+/// What only an unfinished run has; the journal goes last, as it is locked.
+void removeRecords(const Folder& folder)
+{
+  for (const std::string& name : { std::string(notesName), partialName(journalName), std::string(journalName) })
+  {
+    folder.remove(name);
+  }
+}
+
+/// Of a merge that was killed at its very end.
+void removeMerged(const Folder& folder)
+{
+  std::error_code code;
+  std::filesystem::remove_all(folder.pathOf(mergedName), code);
 }
 
 bool isSameFile(const FileDescriptor& a, const FileDescriptor& b)
@@ -335,13 +353,29 @@ Journal::Journal(const std::string& path, const std::string& requestHash, Journa
     throw FolderError(path, FolderContents::Running);
   }
   // once without the lock, so that a refusal leaves no trace, and once with it
-  FolderRecords before = this->Self->read();
-  refuseIfNeeded(path, before, contentsOf(folder, before, requestHash), start);
-  checkNames(folder, document, this->Self->listed, names);
+  const auto look = [&]
+  {
+    const FolderRecords records = this->Self->read();
+    refuseIfNeeded(path, records, contentsOf(folder, records, requestHash), start);
+    checkNames(folder, document, this->Self->listed, names);
+  };
+  try
+  {
+    look();
+  }
+  catch (const UsageError&)
+  {
+    if (isRunning(folder))
+    {
+      throw FolderError(path, FolderContents::Running);
+    }
+    look(); // another process may have come and gone meanwhile
+  }
   this->Self->lock();
-  before = this->Self->read();
+  const FolderRecords before = this->Self->read();
   const FolderContents contents = contentsOf(folder, before, requestHash);
   refuseIfNeeded(path, before, contents, start);
+  removeMerged(folder);
   const bool resumes = start == JournalStart::Resume && contents != FolderContents::Nothing;
   this->Self->begin(requestHash, before, resumes);
   folder.remove(document);
@@ -411,14 +445,22 @@ bool isFinished(const std::string& path, const std::string& requestHash)
   {
     return false;
   }
-  const Folder folder(path);
-  const FileDescriptor left = folder.open(journalName, O_RDWR | O_NONBLOCK);
-  if (left && ::flock(left.number(), LOCK_EX | LOCK_NB) == 0 && folder.look(manifestName) == EntryKind::File)
-  {
-    folder.remove(partialName(journalName)); // of one who was killed while the journal was written anew
-    folder.remove(journalName);
-  }
+  removeLeftJournal(path);
   return true;
+}
+
+void removeLeftJournal(const std::string& path, const std::string& document)
+{
+  const Folder folder(path);
+  if (folder.look(document) == EntryKind::File)
+  {
+    removeMerged(folder);
+  }
+  const FileDescriptor left = folder.open(journalName, O_RDWR | O_NONBLOCK);
+  if (left && ::flock(left.number(), LOCK_EX | LOCK_NB) == 0 && folder.look(document) == EntryKind::File)
+  {
+    removeRecords(folder);
+  }
 }
 
 void Journal::close(const Manifest& manifest)
@@ -434,8 +476,7 @@ void Journal::close(const std::function<void(AtomicFile& document)>& write)
   AtomicFile document(FilePlace(this->Self->folder.path(), this->Self->document));
   write(document);
   document.commitDurably();
-  this->Self->folder.remove(partialName(journalName));
-  this->Self->folder.remove(journalName);
+  removeRecords(this->Self->folder);
 }
 
 } // namespace dgtk

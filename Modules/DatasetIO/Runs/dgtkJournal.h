@@ -21,13 +21,16 @@ namespace dgtk
 /// Names in a dataset's folder.
 constexpr const char* manifestName = "manifest.json";
 constexpr const char* journalName = ".dgtk-journal";
+constexpr const char* notesName = ".dgtk-journal-notes"; ///< what an export knows of its finished items
 
 /// Whether a file is in its folder with its recorded size and hash.
 DGTKDATASETIO_EXPORT bool isWhole(const Folder& folder, const DatasetFile& file);
 
-/// Whether the folder holds the whole dataset of the request with this hash. A journal that stands beside it, of a run
-/// that was killed between its last two steps, is removed.
+/// Whether the folder holds the whole dataset of the request with this hash. What removeLeftJournal() removes is.
 DGTKDATASETIO_EXPORT bool isFinished(const std::string& folder, const std::string& requestHash);
+/// Removes the journal and notes, and merged parts, beside the document of a whole run that was killed between its last
+/// steps.
+DGTKDATASETIO_EXPORT void removeLeftJournal(const std::string& folder, const std::string& document = manifestName);
 
 /// What becomes of a run that the folder holds.
 enum class JournalStart

@@ -3,9 +3,12 @@
 
 #include "dgtkContactSheet.h"
 #include "dgtkError.h"
+#include "dgtkExportDocument.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
+#include "dgtkLongDocuments.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
@@ -13,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include <sys/stat.h>
 
@@ -42,9 +46,43 @@ void removeListed(const Folder& folder, const Manifest& manifest)
   fs::remove(folder.path(), code);
 }
 
+/// At once for whoever looks: a folder without some of its files is never there. `aside` may be of one who was killed.
+void removeFolder(const std::string& folder, const std::string& aside)
+{
+  std::error_code code;
+  std::filesystem::remove_all(aside, code);
+  std::filesystem::rename(folder, aside, code);
+  if (code)
+  {
+    std::filesystem::remove_all(folder);
+  }
+  std::filesystem::remove_all(aside, code); // which another process may do, too
+}
+
 bool hasManifest(const Folder& folder, const std::string& in)
 {
   return folder.look(in + '/' + manifestName) == EntryKind::File;
+}
+
+/// What a value says, which the request of a run of scenes may spell otherwise than those of its datasets do; empty:
+/// nothing.
+std::set<std::string> meaningOf(std::string value)
+{
+  value = value == "own" ? "camera's own" : value;
+  value.erase(std::remove(value.begin(), value.end(), '\\'), value.end());
+  std::set<std::string> words;
+  std::istringstream list(value);
+  for (std::string word; std::getline(list, word, ',');)
+  {
+    words.insert(word);
+  }
+  return words;
+}
+
+/// Whether all datasets of a run have this value of its request: which layers "all" are depends on the scene.
+bool isForAll(const std::string& key, const std::string& value)
+{
+  return key == "layers" ? value != "all" : key == "cameras" || key == "frames" || key == "size";
 }
 
 /// A merge of pictures: files go from their parts to their places.
@@ -66,7 +104,7 @@ public:
     if (this->Report.missing.empty() && this->Report.problems.empty())
     {
       this->Run.scenes.empty() ? this->writePictures() : this->writeScenes();
-      std::filesystem::remove_all(this->Home.path() + '/' + partsName);
+      removeParts(this->Home.path());
       this->Report.merged = true;
     }
     return this->Report;
@@ -179,7 +217,7 @@ private:
     }
     for (const std::size_t block : missing)
     {
-      std::filesystem::remove_all(this->Home.pathOf(partName(block))); // it is made again
+      removeFolder(this->Home.pathOf(partName(block)), this->Home.pathOf(partsName + std::string("/damaged")));
       this->Report.missing.push_back(block);
     }
   }
@@ -214,6 +252,7 @@ private:
     const std::size_t size = this->Run.blockSize();
     std::vector<DatasetFile> found(this->Run.scenes.size());
     std::vector<std::string> problems(this->Run.scenes.size());
+    std::vector<std::vector<InputRecord>> inputs(this->Run.scenes.size());
     this->Pool.parallelFor(int(found.size()),
       [&](int i)
       {
@@ -228,6 +267,10 @@ private:
         {
           problems[std::size_t(i)] = this->Home.pathOf(scene) + ": is of another version of DGTk";
         }
+        else if (const std::string other = this->otherThanAsked(manifest); !other.empty())
+        {
+          problems[std::size_t(i)] = this->Home.pathOf(scene) + ": is of another request: " + other;
+        }
         const Folder own(this->Home.pathOf(scene));
         const bool whole = std::all_of(
           manifest.files.begin(), manifest.files.end(), [&](const DatasetFile& file) { return isWhole(own, file); });
@@ -239,6 +282,7 @@ private:
         {
           const std::uint64_t bytes = std::filesystem::file_size(path);
           found[std::size_t(i)] = { scene + '/' + manifestName, bytes, Sha256::ofFile(path), "", "", -1 };
+          inputs[std::size_t(i)] = manifest.inputs;
         }
       });
     std::set<std::size_t> missing;
@@ -255,6 +299,50 @@ private:
       this->Datasets.push_back(found[i]);
     }
     this->Report.missing.assign(missing.begin(), missing.end());
+    this->checkInputs(inputs);
+  }
+
+  /// The first value of a dataset's request that the run's contradicts.
+  std::string otherThanAsked(const Manifest& manifest) const
+  {
+    const std::map<std::string, std::string> found(manifest.request.begin(), manifest.request.end());
+    for (const auto& [key, value] : this->Run.request)
+    {
+      const auto own = found.find(key);
+      if (own == found.end() || !isForAll(key, value))
+      {
+        continue;
+      }
+      const std::set<std::string> asked = meaningOf(value);
+      const std::set<std::string> made = meaningOf(own->second);
+      if (!asked.empty() && !made.empty() && asked != made)
+      {
+        return key + " (expected " + value + ", found " + own->second + ')';
+      }
+    }
+    return {};
+  }
+
+  /// A file that several scenes name has not changed between them; copies do not say of which file they are.
+  void checkInputs(const std::vector<std::vector<InputRecord>>& inputs)
+  {
+    std::map<std::string, std::pair<std::string, std::size_t>> known; // by path: SHA-256, and whose
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+    {
+      const std::filesystem::path scene = this->Run.scenes[i];
+      for (const InputRecord& input : inputs[i])
+      {
+        const std::string file = (scene / input.path).lexically_normal().string();
+        const auto& [sha256, first] = known.try_emplace(file, input.sha256, i).first->second;
+        if (sha256 != input.sha256)
+        {
+          this->problem(this->Home.pathOf(scene.string()) + ": is of another version of " +
+                        (this->Home.path() / std::filesystem::path(file)).lexically_normal().string() + " than " +
+                        this->Home.pathOf(this->Run.scenes[first]) + "; remove one of them and make its share again");
+          break;
+        }
+      }
+    }
   }
 
   void writeScenes()
@@ -290,8 +378,10 @@ void endScenes(const std::string& folder, const RunParts& run)
     manifest.datasets.push_back(file);
   }
   writeFileDurably(FilePlace(folder, manifestName), datasetsManifestText(manifest));
-  std::filesystem::remove_all(folder + '/' + partsName);
+  removeParts(folder);
 }
+
+void removeParts(const std::string& folder) { removeFolder(folder + '/' + partsName, folder + '/' + mergedName); }
 
 std::string MergeReport::processes(std::size_t of) const
 {
@@ -314,15 +404,36 @@ std::string MergeReport::processes(std::size_t of) const
   return text;
 }
 
+namespace
+{
+/// Of a folder that was merged, maybe by one who was killed while the parts were removed.
+MergeReport reportOfWhole(const std::string& folder)
+{
+  MergeReport report;
+  const Folder home(folder);
+  if (home.look(manifestName) == EntryKind::File)
+  {
+    const std::size_t scenes = sceneFoldersIn(folder).size();
+    report.files = scenes > 0 ? scenes : readManifest(home.fileAt(manifestName)).files.size();
+  }
+  else if (home.look(exportName) == EntryKind::File)
+  {
+    readExportIn(
+      folder, [](ExportedName&&) {}, [&](ExportedFile&&) { ++report.files; });
+  }
+  else if (home.look(mergedName) == EntryKind::Nothing) // exports of scenes have no document of the whole
+  {
+    throw UsageError(folder + ": holds no parts of a run");
+  }
+  std::filesystem::remove_all(home.pathOf(mergedName));
+  report.merged = true;
+  return report;
+}
+} // namespace
+
 MergeReport mergeParts(const std::string& folder, int threads)
 {
-  if (!hasParts(folder))
-  {
-    std::error_code code;
-    const bool whole = std::filesystem::exists(folder + '/' + manifestName, code);
-    throw UsageError(folder + (whole ? ": is whole already" : ": holds no parts of a run"));
-  }
-  return Merge(folder, threads).execute();
+  return hasParts(folder) ? Merge(folder, threads).execute() : reportOfWhole(folder);
 }
 
 } // namespace dgtk

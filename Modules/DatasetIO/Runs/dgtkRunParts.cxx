@@ -149,12 +149,12 @@ void requireRoomForParts(const std::string& folder, const std::string& requestHa
   }
 }
 
-void beginParts(const std::string& path, const RunParts& run, std::size_t workers)
+void beginParts(const std::string& path, const RunParts& run, std::size_t workers, bool replace)
 {
   makeFolders(path);
   const Folder folder(path);
   const std::string text = runText(run);
-  if (!hasParts(path))
+  if (replace || !hasParts(path))
   {
     folder.makeParents(runFile());
     writeBeside(folder, runFile(), text);
@@ -164,7 +164,16 @@ void beginParts(const std::string& path, const RunParts& run, std::size_t worker
     throw UsageError(path + ": " + describe(FolderContents::UnfinishedOther) + ", in parts; remove " +
                      (there.scenes.empty() ? std::string("its ") + partsName : "it") + ", or name another folder");
   }
-  const std::string note = std::string(partsName) + '/' + workersStem + std::to_string(workers);
+  const auto noteOf = [](std::size_t count)
+  { return std::string(partsName) + '/' + workersStem + std::to_string(count); };
+  if (replace)
+  {
+    for (const std::size_t count : workersOf(path))
+    {
+      folder.remove(noteOf(count));
+    }
+  }
+  const std::string note = noteOf(workers);
   if (folder.look(note) == EntryKind::Nothing)
   {
     writeBeside(folder, note, "");

@@ -16,6 +16,8 @@ namespace dgtk
 
 /// Where the parts of a run wait in its folder until they are merged.
 constexpr const char* partsName = ".dgtk-parts";
+/// Where they are once they are merged, until they are removed.
+constexpr const char* mergedName = ".dgtk-parts-merged";
 
 /// Which share of a run a process makes: of the run's blocks those with the numbers index, index + count, ...
 struct RunShard
@@ -43,7 +45,8 @@ struct DGTKDATASETIO_EXPORT RunParts
   std::size_t blocks() const;
 };
 
-/// ".dgtk-parts/000012": the folder of a block of pictures, itself like a dataset.
+/// ".dgtk-parts/000012": the folder of a block of pictures, itself like a dataset; documents, copies of inputs and
+/// models are in the first block alone.
 DGTKDATASETIO_EXPORT std::string partName(std::size_t block);
 
 /// Whether parts wait in a folder.
@@ -55,8 +58,13 @@ DGTKDATASETIO_EXPORT RunParts readParts(const std::string& folder);
 /// Throws FolderError where something stands in a folder that has no parts; `requestHash` as for folderContents().
 DGTKDATASETIO_EXPORT void requireRoomForParts(const std::string& folder, const std::string& requestHash = {});
 /// Prepares a folder for the parts of a run, of which this is one process of `workers`; any number may do so at the
-/// same time. Throws UsageError when parts of another request are there, MachineError when it cannot be written.
-DGTKDATASETIO_EXPORT void beginParts(const std::string& folder, const RunParts& run, std::size_t workers);
+/// same time; `replace`: it is alone, and the record of another run goes. Throws UsageError when parts of another
+/// request are there, MachineError when it cannot be written.
+DGTKDATASETIO_EXPORT void beginParts(
+  const std::string& folder, const RunParts& run, std::size_t workers, bool replace = false);
+/// Removes the parts of a whole run; killed meanwhile, it leaves a folder that mergeParts() knows to be whole;
+/// a later run of the same folder removes the rest.
+DGTKDATASETIO_EXPORT void removeParts(const std::string& folder);
 
 /// Counts of processes that the parts in a folder were begun with, ascending.
 DGTKDATASETIO_EXPORT std::vector<std::size_t> workersOf(const std::string& folder);
@@ -79,8 +87,9 @@ struct MergeReport
 };
 
 /// Makes of the parts in a folder what one process would have left, when all are there: every file is compared with its
-/// SHA-256 first, and nothing is changed unless all fit. May be called again after it was interrupted. Throws
-/// UsageError where no parts are, and what reading and writing throw.
+/// SHA-256 first, and nothing is changed unless all fit. May be called again after it was interrupted, and where all
+/// is whole: no blocks then. Throws UsageError where neither parts nor a whole run are, and what reading and writing
+/// throw.
 DGTKDATASETIO_EXPORT MergeReport mergeParts(const std::string& folder, int threads);
 
 /// The manifest of a folder of datasets.

@@ -285,6 +285,28 @@ TEST(LayerPicture, TheLongestHundredthOfAFlowIsNotShownInFull)
 }
 } // namespace
 
+TEST(Canvas, TextIsCutAtThePicturesBorders)
+{
+  const auto drawn = [](int x, int y, int px, int py)
+  {
+    Canvas canvas(9, 9, { 0, 0, 0 });
+    canvas.text("A", x, y, 9, { 9, 9, 9 });
+    return canvas.at(px, py)[0] != 0;
+  };
+  for (const auto& [x, y] : { std::pair(-2, 1), { 6, 1 }, { 1, -3 }, { 1, 5 }, { 1, -9 } })
+  {
+    for (int py = 0; py < 9; ++py)
+    {
+      for (int px = 0; px < 9; ++px)
+      {
+        const bool inside = px >= x && px < x + 5 && py >= y && py < y + 7;
+        EXPECT_EQ(drawn(x, y, px, py), inside && (glyphOf('A')[std::size_t(py - y)] >> (4 - px + x) & 1) != 0)
+          << x << ' ' << y << ' ' << px << ' ' << py;
+      }
+    }
+  }
+}
+
 TEST(ContactSheet, RowsAreFramesColumnsAreLayers)
 {
   const TemporaryFolder folder;

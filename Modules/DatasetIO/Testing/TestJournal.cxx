@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
+#include "dgtkRunParts.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
@@ -215,6 +216,7 @@ TEST(Journal, OneThatAKilledRunLeftBesideItsManifestGoes)
 {
   const TemporaryFolder folder;
   const std::string journal = folder.path(journalName);
+  const std::string notes = folder.path(notesName);
   std::string killed;
   {
     Journal run(folder.path(), "one", fresh);
@@ -224,11 +226,14 @@ TEST(Journal, OneThatAKilledRunLeftBesideItsManifestGoes)
     EXPECT_FALSE(isFinished(folder.path(), "one"));
     killed = readFile(journal);
     writeFile(partialName(journal), "of one who was killed");
+    writeFile(notes, "of an export");
     run.close(manifest);
     EXPECT_FALSE(fs::exists(partialName(journal)));
+    EXPECT_FALSE(fs::exists(notes));
   }
   writeFile(journal, killed);
   writeFile(partialName(journal), killed);
+  writeFile(notes, "of an export");
   EXPECT_FALSE(isFinished(folder.path(), "other"));
   EXPECT_TRUE(fs::exists(journal));
   {
@@ -237,12 +242,39 @@ TEST(Journal, OneThatAKilledRunLeftBesideItsManifestGoes)
     EXPECT_FALSE(isFinished(folder.path(), "one")) << "a process is at it";
     EXPECT_TRUE(fs::exists(journal));
     EXPECT_TRUE(fs::exists(partialName(journal)));
+    EXPECT_TRUE(fs::exists(notes));
   }
+  removeLeftJournal(folder.path(), "export.json");
+  EXPECT_TRUE(fs::exists(journal)) << "no such document";
   EXPECT_TRUE(isFinished(folder.path(), "one"));
   EXPECT_FALSE(fs::exists(journal));
   EXPECT_FALSE(fs::exists(partialName(journal)));
+  EXPECT_FALSE(fs::exists(notes));
   EXPECT_TRUE(isFinished(folder.path(), "one"));
   EXPECT_EQ(readFile(folder.path("a.npy")), "1");
+}
+
+TEST(Journal, WhatAKilledMergeLeftBesideAWholeRunGoes)
+{
+  const TemporaryFolder folder;
+  const std::string merged = folder.path(mergedName);
+  const auto leave = [&] { makeFolders(merged + "/000001"), writeFile(merged + "/000001/a", "1"); };
+  finishRun(folder.path(), "a");
+  leave();
+  EXPECT_FALSE(isFinished(folder.path(), "other"));
+  EXPECT_TRUE(fs::exists(merged));
+  EXPECT_TRUE(isFinished(folder.path(), "one"));
+  EXPECT_FALSE(fs::exists(merged));
+  leave();
+  removeLeftJournal(folder.path(), "export.json");
+  EXPECT_TRUE(fs::exists(merged)) << "no such document";
+  EXPECT_THAT(refusal(folder.path(), "two", fresh), HasSubstr("of another request"));
+  EXPECT_TRUE(fs::exists(merged));
+  {
+    const Journal journal(folder.path(), "one", resume);
+    EXPECT_FALSE(fs::exists(merged));
+  }
+  EXPECT_EQ(contentsOf(folder.path("a")), "1");
 }
 
 TEST(Journal, ReplacingRemovesWhatTheOldRunListed)
@@ -317,6 +349,40 @@ TEST(Journal, AFileThatNobodyHasWrittenIsNotReplaced)
   Journal journal(folder.path(), "one", resume, { "a" });
   EXPECT_THROW(journal.planLate("b"), UsageError);
   journal.planLate("c");
+}
+
+TEST(Journal, OneThatBeginsWhileTheFolderIsLookedAtIsNotForeign)
+{
+  for (const bool stays : { true, false })
+  {
+    const TemporaryFolder folder;
+    const std::string& dir = folder.path();
+    {
+      Journal journal(dir, "one", fresh);
+      addFile(journal, dir, "a", "1");
+    }
+    std::unique_ptr<Journal> other;
+    const ForNames names = [&](const std::function<void(const std::string&)>& visit)
+    {
+      if (!fs::exists(dir + "/b")) // a file of the other one, which this one has not read of
+      {
+        other = std::make_unique<Journal>(dir, "one", resume);
+        addFile(*other, dir, "b", "2");
+        other = stays ? std::move(other) : nullptr;
+      }
+      visit("a");
+      visit("b");
+    };
+    const auto start = [&] { return Journal(dir, "one", resume, names).finished(); };
+    if (stays)
+    {
+      EXPECT_THAT(thrownBy<FolderError>(start), HasSubstr("another run is writing into this folder"));
+    }
+    else
+    {
+      EXPECT_EQ(start(), 2u);
+    }
+  }
 }
 
 TEST(FolderContents, SaysWhatStandsThere)

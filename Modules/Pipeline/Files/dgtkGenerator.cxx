@@ -155,7 +155,7 @@ GeneratorResult Run::execute()
   const std::string tight = checkSpace(request.folder, needed, spaceIn(request.folder, needed.likely));
   if (!tight.empty())
   {
-    this->warn(tight);
+    this->say("warning: " + tight); // not in the manifest, which is the same on every disk
   }
   this->Files = std::make_unique<RunFiles>(
     this->Root, this->Documents->requestHash(), startOf(request), this->Documents->allNames());

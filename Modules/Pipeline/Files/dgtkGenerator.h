@@ -22,11 +22,11 @@ namespace dgtk
 
 class RunSession;
 
-/// Consecutive pictures of a run that is made in parts: each part is like a dataset, in a folder of its own, whose
-/// documents are those of the whole.
+/// Consecutive pictures of a run that is made in parts: each part is like a dataset, in a folder of its own; the first
+/// one has the documents of the whole.
 struct RunBlock
 {
-  std::string folder;
+  std::string folder;    ///< partName() below the run's
   std::size_t first = 0; ///< among the run's pictures
   std::size_t count = 0;
 };

@@ -7,6 +7,7 @@
 #include "dgtkGeometryHash.h"
 #include "dgtkLayers.h"
 #include "dgtkRunNotes.h"
+#include "dgtkRunParts.h"
 
 #include "dgtkContactSheet.h"
 #include "dgtkDatasetDocuments.h"
@@ -61,7 +62,7 @@ RunDocuments::RunDocuments(const Stage& stage, const WorkPlan& plan, const std::
 
 void RunDocuments::pack(RunFiles& run)
 {
-  if (!this->Packed)
+  if (!this->Packed || !this->isFirst())
   {
     return;
   }
@@ -99,7 +100,7 @@ void RunDocuments::pack(RunFiles& run)
 
 void RunDocuments::writeModels(RunFiles& files) const
 {
-  if (this->Models)
+  if (this->Models && this->isFirst())
   {
     this->Models->write(this->Root, files);
   }
@@ -109,6 +110,9 @@ std::map<std::string, std::string> RunDocuments::copies() const
 {
   return this->Packed ? this->Packed->copies : std::map<std::string, std::string>();
 }
+
+/// Of a whole dataset, or its first part: what all parts would have alike is there alone.
+bool RunDocuments::isFirst() const { return this->Root == this->Home || this->Root == this->Home + '/' + partName(0); }
 
 /// Of a whole dataset: parts have not all pictures.
 bool RunDocuments::wantsSheet() const
@@ -179,9 +183,14 @@ Manifest RunDocuments::manifest(const std::vector<std::string>& warnings) const
 
 std::size_t RunDocuments::write(RunFiles& files, const std::vector<std::string>& warnings)
 {
-  files.plan(this->documentNames());
   Manifest manifest = this->manifest(warnings);
   manifest.files = files.files();
+  if (!this->isFirst())
+  {
+    files.close(manifest);
+    return 0;
+  }
+  files.plan(this->documentNames());
   const std::size_t pictures = manifest.files.size();
   manifest.files.push_back(writeDocument(
     this->Root, camerasName, camerasText(cameraRecords(this->Plan, this->Scene, this->Home, this->copies()))));

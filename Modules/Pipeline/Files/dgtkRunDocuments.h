@@ -24,9 +24,10 @@ std::vector<std::string> filesOf(const WorkPlan& plan, const Stage& stage, const
 class RunDocuments
 {
 public:
-  /// Reads the inputs. `home` is the dataset's folder; a part of a run is written into another one, and the documents
-  /// of the whole say the same in each. Throws UsageError where the run would write its inputs.
-  /// `classNumbers` are those that the request gives to the scene, see requestOf().
+  /// Reads the inputs. `home` is the dataset's folder; a part of a run is written into another one, and only the
+  /// first part (see partName()) has documents, which are those of the whole, copies of inputs and models. Throws
+  /// UsageError where the run would write its inputs. `classNumbers` are those that the request gives to the scene, see
+  /// requestOf().
   RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder,
     RunSession& session, const std::string& classNumbers);
 
@@ -42,6 +43,7 @@ public:
 
 private:
   std::vector<std::string> documentNames() const;
+  bool isFirst() const;
   bool wantsSheet() const;
   Manifest manifest(const std::vector<std::string>& warnings) const;
   std::map<std::string, std::string> copies() const;

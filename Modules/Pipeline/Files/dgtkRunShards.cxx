@@ -106,8 +106,8 @@ std::vector<std::string> heldScenes(const std::string& folder)
   return sceneFoldersIn(folder);
 }
 
-/// Ends what the folder held: its manifest and its parts' record; the datasets are replaced one by one.
-void dropRecords(const std::string& folder, const RunParts& run)
+/// Datasets are replaced one by one: each that is there has to be of one of these scenes.
+void requireReplacing(const std::string& folder, const RunParts& run)
 {
   for (const std::string& name : heldScenes(folder))
   {
@@ -117,9 +117,6 @@ void dropRecords(const std::string& folder, const RunParts& run)
                        ", which no scene of this one replaces; remove it, or name another folder");
     }
   }
-  std::error_code code;
-  fs::remove(folder + '/' + manifestName, code);
-  fs::remove_all(folder + '/' + partsName, code);
 }
 
 /// Scenes one after another, whatever decides which.
@@ -134,14 +131,20 @@ public:
   {
   }
 
+  /// Throws where the dataset of a scene is of another request: models may have changed since.
+  void requireSame(std::size_t scene) const
+  {
+    const GeneratorRequest one = this->requestOf(scene);
+    if (folderContents(one.folder, requestHash(one)) == FolderContents::FinishedOther)
+    {
+      throw FolderError(one.folder, FolderContents::FinishedOther);
+    }
+  }
+
   /// False after an interruption.
   bool render(std::size_t scene, bool keep)
   {
-    GeneratorRequest one = this->Request;
-    one.scene = this->Files.scenes[scene].second;
-    one.folder += '/' + this->Files.scenes[scene].first;
-    one.session = this->Session;
-    one.classes = one.classes.empty() ? this->Files.classes : one.classes;
+    GeneratorRequest one = this->requestOf(scene);
     if (keep && this->isDone(one))
     {
       ++this->Kept;
@@ -216,6 +219,15 @@ public:
 private:
   static constexpr std::size_t mostLines = 1000;
 
+  GeneratorRequest requestOf(std::size_t scene) const
+  {
+    GeneratorRequest one = this->Request;
+    one.scene = this->Files.scenes[scene].second;
+    one.folder += '/' + this->Files.scenes[scene].first;
+    one.session = this->Session;
+    one.classes = one.classes.empty() ? this->Files.classes : one.classes;
+    return one;
+  }
   /// A whole dataset of the same request; its contents are compared when it is merged.
   bool isDone(const GeneratorRequest& one) const
   {
@@ -276,11 +288,6 @@ GeneratorResult shardOfScenes(
 {
   const FolderScenes files = scenesIn(request.scene);
   const RunParts run = partsOf(request, files);
-  if (isWhole(request.folder, run, false))
-  {
-    return {};
-  }
-  beginParts(request.folder, run, shard.count);
   const std::size_t size = run.blockSize();
   std::vector<std::size_t> scenes;
   for (std::size_t block = shard.index; block < run.blocks(); block += shard.count)
@@ -291,6 +298,12 @@ GeneratorResult shardOfScenes(
     }
   }
   SceneRuns runs(request, files, callbacks);
+  if (isWhole(request.folder, run, false))
+  {
+    std::for_each(scenes.begin(), scenes.end(), [&](std::size_t scene) { runs.requireSame(scene); });
+    return {};
+  }
+  beginParts(request.folder, run, shard.count);
   runs.begin(scenes.size());
   for (const std::size_t scene : scenes)
   {
@@ -410,17 +423,25 @@ GeneratorResult generateScenes(const GeneratorRequest& request, const GeneratorC
   {
     throw FolderError(own.folder, FolderContents::Unfinished);
   }
-  std::error_code code;
-  if (whole || own.replace)
+  SceneRuns runs(own, files, callbacks);
+  for (std::size_t i = 0; i < files.scenes.size() && whole && !own.replace; ++i)
   {
-    dropRecords(own.folder, run);
+    runs.requireSame(i);
+  }
+  const bool anew = whole || own.replace;
+  if (anew)
+  {
+    requireReplacing(own.folder, run);
   }
   if (!files.leftOut.empty() && callbacks.message)
   {
     callbacks.message("left out, as they are no scenes: " + joined(files.leftOut, ", "));
   }
-  beginParts(own.folder, run, 1);
-  SceneRuns runs(own, files, callbacks);
+  beginParts(own.folder, run, 1, anew);
+  if (anew) // not before there are parts, so that the folder says at any time what it holds
+  {
+    Folder(own.folder).remove(manifestName);
+  }
   runs.begin(files.scenes.size());
   for (std::size_t i = 0; i < files.scenes.size(); ++i)
   {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetExporter.h"
+#include "dgtkDatasetGenerator.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkGenerator.h"
@@ -7,9 +9,11 @@
 #include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
+#include <vtkNew.h>
 
 #include <atomic>
 #include <filesystem>
+#include <string>
 
 using namespace dgtk;
 
@@ -130,6 +134,43 @@ TEST(Generator, ProgressOfASharePutsWhatIsKeptApart)
       EXPECT_EQ(last.total, 2u);
       EXPECT_EQ(last.kept, kept);
     }
+  }
+}
+
+namespace
+{
+constexpr int longEnough = 1000; ///< milliseconds, and again
+
+/// How a run ends that is given this file once, and another while it runs.
+template <class Run>
+std::string failureOf(Run& run, void (Run::*set)(const std::string&), const std::string& file)
+{
+  (run.*set)(file);
+  run.Start();
+  (run.*set)("/nowhere/later");
+  while (run.IsRunning())
+  {
+    run.Wait(longEnough);
+  }
+  return run.GetErrorMessage();
+}
+} // namespace
+
+TEST(BackgroundRuns, HaveTheSettingsOfTheirStart)
+{
+  const test::TemporaryFolder folder;
+  vtkNew<dgtkDatasetGenerator> generator;
+  generator->SetFolder(folder.path("out"));
+  vtkNew<dgtkDatasetExporter> exporter;
+  exporter->SetFolder(folder.path("out"));
+  exporter->SetFormat("coco");
+  for (int i = 0; i < 20; ++i)
+  {
+    const std::string file = "/nowhere/" + std::to_string(i);
+    const std::string generated = failureOf(*generator.Get(), &dgtkDatasetGenerator::SetSceneFile, file);
+    EXPECT_NE(generated.find(file), std::string::npos) << generated;
+    const std::string exported = failureOf(*exporter.Get(), &dgtkDatasetExporter::SetDataset, file);
+    EXPECT_NE(exported.find(file), std::string::npos) << exported;
   }
 }
 

@@ -73,7 +73,7 @@ void clearFolder(const SampleRequest& request, const Json& begun)
   {
     throw SampleFolderError(request.folder + " holds " + dgtk::quoted(foreign) + ", which is no sample", false);
   }
-  if (samples.empty())
+  if (samples.empty() || samples == std::vector<std::string>{ partialName(recordName) }) // ended at its very beginning
   {
     return;
   }

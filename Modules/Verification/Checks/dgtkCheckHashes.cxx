@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkHash.h"
+#include "dgtkRunParts.h"
 
 #include <filesystem>
 #include <set>
@@ -66,7 +67,7 @@ void checkInputs(const Dataset& dataset, Meter& meter)
   }
 }
 
-/// Files that the manifest does not list.
+/// Files that the manifest does not list, but for what a killed merge has left.
 void checkUnlisted(const Dataset& dataset, Meter& meter)
 {
   std::set<std::string> listed;
@@ -78,6 +79,10 @@ void checkUnlisted(const Dataset& dataset, Meter& meter)
   for (const auto& entry : fs::recursive_directory_iterator(dataset.folder()))
   {
     const std::string path = entry.path().lexically_relative(dataset.folder()).generic_string();
+    if (path.rfind(mergedName + std::string("/"), 0) == 0)
+    {
+      continue;
+    }
     if ((entry.is_symlink() || !entry.is_directory()) && path != "manifest.json" && path != "verification.json")
     {
       present.insert(path);

@@ -7,6 +7,7 @@
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
 #include "dgtkHash.h"
+#include "dgtkRunParts.h"
 #include "dgtkSceneFolders.h"
 #include "dgtkText.h"
 
@@ -108,7 +109,8 @@ void checkFiles(const ExportedFrom& source, Results& results)
   for (const auto& entry : fs::recursive_directory_iterator(source.folder()))
   {
     const std::string name = entry.path().lexically_relative(source.folder()).generic_string();
-    if (entry.is_symlink() || !entry.is_directory())
+    const bool merged = name.rfind(mergedName + std::string("/"), 0) == 0; // left by a merge that was killed
+    if (!merged && (entry.is_symlink() || !entry.is_directory()))
     {
       meter.equal(listed.count(name) > 0, [&] { return Offender{ name, -1, -1, "a file", "none of this name" }; });
     }

@@ -239,6 +239,26 @@ TEST(Eye, ReachesOfCameras)
   EXPECT_EQ(reach("fisheye"), Vector2d(40, 24)) << "at least that of the picture's size";
 }
 
+TEST(Eye, SeesWhatIsInThePictureAndBetweenItsLimits)
+{
+  CameraRecord record = makeRecord("pinhole");
+  record.near = 2;
+  record.far = 8;
+  const Eye eye(record, nullptr);
+  const auto sees = [&](double u, double v, double depth) { return eye.sees({ u, v }, eye.at({ u, v }, depth)); };
+  for (const double depth : { 2.0, 5.0, 8.0 })
+  {
+    EXPECT_TRUE(sees(0, 0, depth)) << depth;
+    EXPECT_TRUE(sees(64, 48, depth)) << depth;
+  }
+  EXPECT_FALSE(sees(30, 25, 1.99));
+  EXPECT_FALSE(sees(30, 25, 8.01));
+  for (const auto& [u, v] : { std::pair(-0.01, 25.0), { 64.01, 25 }, { 30, -0.01 }, { 30, 48.01 } })
+  {
+    EXPECT_FALSE(sees(u, v, 5)) << u << ' ' << v;
+  }
+}
+
 /// Either side of the seam of a picture of all directions is one place.
 TEST(Eye, SeamsOfLenses)
 {
