@@ -14,7 +14,8 @@ namespace dgtk
 /// Of a matrix of the stream, whose last row does not count.
 Eigen::Affine3d affineOf(const import::Matrix& matrix);
 
-/// How far from a key a time may be that is meant to be at it; seconds. Times are rounded; those of glTF to single precision.
+/// How far from a key a time may be that is meant to be at it; seconds. Times are rounded; those of glTF to single
+/// precision.
 double roundingOf(double time);
 
 /// Value of a curve with at least one key; time in seconds.

@@ -140,7 +140,7 @@ void readFacet(StlWords& words, std::vector<Eigen::Vector3d>& corners)
   for (std::string_view word = words.next(); !is(word, "endfacet"); word = words.next())
   {
     const bool isNext = is(word, "vertex") || is(word, "outer");
-    isNormal = (isNormal || is(word, "normal")) && !isNext;
+    isNormal = (isNormal || is(word, "normal")) && !isNext && !word.empty();
     if (is(word, "vertex"))
     {
       const double x = words.number();

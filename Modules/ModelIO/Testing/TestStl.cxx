@@ -162,6 +162,8 @@ TEST(Stl, Refusals)
     "model.stl:4: is no STL file (expected a number, found 'z')");
   EXPECT_EQ(refusal("stl", "solid a\nfacet\nwater loop\n"),
     "model.stl:3: is no STL file (expected vertex or endfacet, found 'water')");
+  EXPECT_EQ(refusal("stl", "solid a\nfacet normal 0 0 1\n"),
+    "model.stl:3: ends too soon (expected vertex or endfacet, found end of file)");
   EXPECT_EQ(
     refusal("stl", "solid a\nfaset\n"), "model.stl:2: is no STL file (expected facet or endsolid, found 'faset')");
   EXPECT_EQ(refusal("stl", "solid a\n" + facet({ "0 0 0", "1 0 0", "0 1 0" })),
