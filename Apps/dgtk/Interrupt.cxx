@@ -3,6 +3,7 @@
 
 #include "Options.h"
 
+#include "dgtkAgainError.h"
 #include "dgtkError.h"
 
 #include <algorithm>
@@ -72,18 +73,20 @@ std::string withOption(const std::string& line, const std::vector<const OptionRo
   return named == rows.end() ? line : optionWord(**named) + line.substr(name.size());
 }
 
-std::string wayOut(FolderContents contents, bool isShare)
+void refuse(const FolderError& error, bool isShare)
 {
-  const std::string begin = isShare ? "; without --shard, " : "; ";
-  switch (contents)
+  const std::string begin = error.what() + std::string(isShare ? "; without --shard, " : "; ");
+  switch (error.contents())
   {
+    case FolderContents::Running:
+      throw AgainError(error.what());
     case FolderContents::Unfinished:
-      return begin + "--resume completes it, --replace starts over";
+      throw UsageError(begin + "--resume completes it, --replace starts over");
     case FolderContents::FinishedOther:
     case FolderContents::UnfinishedOther:
-      return begin + "--replace removes it, or name another folder";
+      throw UsageError(begin + "--replace removes it, or name another folder");
     default:
-      return "";
+      throw UsageError(error.what());
   }
 }
 

@@ -31,8 +31,9 @@ std::string optionWord(const OptionRow& row);
 /// A refusal that begins with the name of an option ("points_step: ..."), as the command line has it.
 std::string withOption(const std::string& line, const std::vector<const OptionRow*>& rows);
 
-/// What may be done about a folder that is refused, to a whole run or to a share of one: the end of the sentence.
-std::string wayOut(FolderContents contents, bool isShare);
+/// Throws what the user is told of a folder that is refused to a whole run or to a share of one, with what may be done;
+/// AgainError where another process is at work.
+[[noreturn]] void refuse(const FolderError& error, bool isShare);
 
 } // namespace dgtk::app
 

@@ -147,11 +147,7 @@ GeneratorResult generated(
   }
   catch (const FolderError& error)
   {
-    if (error.contents() == FolderContents::Running)
-    {
-      throw AgainError(error.what());
-    }
-    throw UsageError(error.what() + wayOut(error.contents(), shard.has_value()));
+    refuse(error, shard.has_value());
   }
 }
 

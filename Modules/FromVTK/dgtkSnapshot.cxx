@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSnapshot.h"
 
+#include "dgtkArrayMemory.h"
 #include "dgtkError.h"
 #include "dgtkFrozenPair.h"
 #include "dgtkFrozenView.h"
@@ -37,6 +38,12 @@ vtkSmartPointer<vtkUnsignedIntArray> zeros(std::int64_t count)
   }
   made->SetArray(values, vtkIdType(count), 0, vtkUnsignedIntArray::VTK_DATA_ARRAY_FREE);
   return made;
+}
+
+void requireMemory(dgtkSnapshot& of, std::size_t bytesOfPixel)
+{
+  dgtk::requireArrayMemory(
+    of.GetWidth(), of.GetHeight(), double(of.GetWidth()) * of.GetHeight() * double(bytesOfPixel));
 }
 } // namespace
 
@@ -147,7 +154,7 @@ vtkDataArray* dgtkSnapshot::TraceCells()
     [&]
     {
       const dgtk::FrozenView& view = self.taken();
-      dgtk::requireMemory(this->GetWidth(), this->GetHeight(), sizeof(std::int64_t) + sizeof(dgtk::Hit));
+      requireMemory(*this, sizeof(std::int64_t) + sizeof(dgtk::Hit));
       const auto cells = vtkSmartPointer<vtkTypeInt64Array>::New();
       cells->SetName("cells");
       cells->SetNumberOfValues(vtkIdType(this->GetWidth()) * this->GetHeight());
@@ -228,7 +235,7 @@ bool dgtkSnapshot::Correspond(dgtkSnapshot* other)
       }
       const dgtk::FrozenView& from = self.taken();
       const dgtk::FrozenView& to = other->Self->taken();
-      dgtk::requireMemory(this->GetWidth(), this->GetHeight(), 2 * sizeof(double) + 1 + sizeof(dgtk::Hit));
+      requireMemory(*this, 2 * sizeof(double) + 1 + sizeof(dgtk::Hit));
       const vtkIdType pixels = vtkIdType(this->GetWidth()) * this->GetHeight();
       const auto positions = vtkSmartPointer<vtkDoubleArray>::New();
       positions->SetNumberOfComponents(2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkArraySink.h"
 
+#include "dgtkArrayMemory.h"
 #include "dgtkError.h"
 #include "dgtkSpaceNeeded.h"
 
@@ -150,27 +151,33 @@ std::vector<LayerArray> ArraySink::finish()
   return all;
 }
 
-void requireMemory(const WorkPlan& plan, const Stage& stage, const Job& job)
+void requireArrayMemory(int width, int height, double bytes)
 {
   constexpr double gigabyte = 1e9;
+  const double there = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+  if (bytes > there)
+  {
+    throw MachineError("not enough memory: arrays of " + std::to_string(width) + " x " + std::to_string(height) +
+                       " pixels take " + std::to_string(std::uint64_t(bytes / gigabyte)) + " GB, and there are " +
+                       std::to_string(std::uint64_t(there / gigabyte)));
+  }
+}
+
+void requireMemory(const WorkPlan& plan, const Stage& stage, const Job& job)
+{
   double needed = 0;
-  std::string size;
+  int width = 0;
+  int height = 0;
   for (const LayerOutput& output : outputsOf(plan, stage, job))
   {
     const bool isImage = std::any_of(output.formats.begin(), output.formats.end(),
       [&output](const std::string& format)
       { return spaceOf(output.spec, format, 1, 1).likely > 0 || format == "png"; });
-    needed +=
-      isImage ? double(output.width) * output.height * output.spec.channels * double(bytesOf(output.spec.type)) : 0;
-    size = std::to_string(output.width) + " x " + std::to_string(output.height);
+    width = output.width;
+    height = output.height;
+    needed += isImage ? double(width) * height * output.spec.channels * double(bytesOf(output.spec.type)) : 0;
   }
-  const double there = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
-  if (needed > there)
-  {
-    throw MachineError("not enough memory: arrays of " + size + " pixels take " +
-                       std::to_string(std::uint64_t(needed / gigabyte)) + " GB, and there are " +
-                       std::to_string(std::uint64_t(there / gigabyte)));
-  }
+  requireArrayMemory(width, height, needed);
 }
 
 } // namespace dgtk

@@ -1,32 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTracedView.h"
 
-#include "dgtkError.h"
 #include "dgtkRaySource.h"
 #include "dgtkSpareVectors.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
-#include <string>
-
-#include <unistd.h>
 
 namespace dgtk
 {
-
-void requireMemory(int width, int height, std::size_t bytes)
-{
-  constexpr double gigabyte = 1e9;
-  const double needed = double(width) * height * double(bytes);
-  const double there = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
-  if (needed > there)
-  {
-    throw MachineError("not enough memory: arrays of " + std::to_string(width) + " x " + std::to_string(height) +
-                       " pixels take " + std::to_string(std::uint64_t(needed / gigabyte)) + " GB, and there are " +
-                       std::to_string(std::uint64_t(there / gigabyte)));
-  }
-}
 
 void traceTiles(const Stage& stage, const View& view, const std::function<void(const VisibilityBuffer&)>& look)
 {

@@ -5,16 +5,12 @@
 #include "dgtkFrozenView.h"
 #include "dgtkVisibility.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace dgtk
 {
-
-/// Throws MachineError where arrays of so many bytes a pixel could not fit into the machine's memory.
-void requireMemory(int width, int height, std::size_t bytes);
 
 /// Traces a stage's view at frame 0, tile by tile, each of which `look` is shown in this thread.
 void traceTiles(const Stage& stage, const View& view, const std::function<void(const VisibilityBuffer&)>& look);
