@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Preloaded into a program: it is started and linked once, and its main() runs in a fork of it for each request on
+// Preloaded into a program: it is started and linked once, and a fork of it runs its main() for each request on
 // standard input, which is what a sweep of some thousand short runs spends most of its time on otherwise
-// (many_runs.py). Request: the size of what follows, and arguments, each with a 0 behind it. Answer: the exit status
+// (many_runs.py). What a run leaves in memory the next finds: what ends or kills the fork ends that run, and the next
+// has a new one. Request: the size of what follows, and arguments, each with a 0 behind it. Answer: the exit status
 // (of a signal, its number below 0), the sizes of what was written to standard output and error, and both. Sizes and
 // status have 32 bits.
 #include <cerrno>
@@ -16,6 +17,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,15 +49,33 @@ bool transferAll(Transfer transfer, int file, Bytes* bytes, std::size_t size)
   return true;
 }
 
-[[noreturn]] void runOnce(char* program, std::string& words, int output, int errors, char** environment)
+/// The fork that runs, and what it writes to.
+struct Worker
 {
-  const int input = open("/dev/null", O_RDONLY);
-  dup2(input, STDIN_FILENO);
-  dup2(output, STDOUT_FILENO);
-  dup2(errors, STDERR_FILENO);
-  close(input);
-  close(output);
-  close(errors);
+  pid_t process = -1;
+  int requests = -1, answers = -1, output = -1, errors = -1;
+};
+
+bool receive(int file, std::string& words)
+{
+  std::uint32_t size = 0;
+  if (!transferAll(read, file, reinterpret_cast<char*>(&size), sizeof size))
+  {
+    return false;
+  }
+  words.assign(size, '\0');
+  return transferAll(read, file, words.data(), words.size());
+}
+
+bool send(int file, const std::string& words)
+{
+  const auto size = static_cast<std::uint32_t>(words.size());
+  return transferAll(write, file, reinterpret_cast<const char*>(&size), sizeof size) &&
+         transferAll(write, file, words.data(), words.size());
+}
+
+int run(char* program, std::string& words, char** environment)
+{
   std::vector<char*> arguments{ program };
   for (std::size_t at = 0; at < words.size(); at += std::strlen(&words[at]) + 1)
   {
@@ -65,19 +85,77 @@ bool transferAll(Transfer transfer, int file, Bytes* bytes, std::size_t size)
   const int status = mainOfProgram(static_cast<int>(arguments.size()) - 1, arguments.data(), environment);
   std::cout.flush();
   std::fflush(nullptr);
+  return status;
+}
+
+[[noreturn]] void work(char* program, int requests, int answers, const Worker& files, char** environment)
+{
+  const int input = open("/dev/null", O_RDONLY);
+  dup2(input, STDIN_FILENO);
+  dup2(files.output, STDOUT_FILENO);
+  dup2(files.errors, STDERR_FILENO);
+  close(input);
+  signal(SIGPIPE, SIG_DFL);
+  for (std::string words; receive(requests, words);)
+  {
+    const std::int32_t status = run(program, words, environment);
+    transferAll(write, answers, reinterpret_cast<const char*>(&status), sizeof status);
+  }
   if (__gcov_dump != nullptr)
   {
     __gcov_dump();
   }
-  _exit(status); // destructors of all libraries would copy their pages
+  _exit(0); // destructors of all libraries would copy their pages
 }
 
-std::string contents(int file)
+Worker started(char* program, char** environment)
+{
+  Worker worker;
+  worker.output = memfd_create("output", MFD_CLOEXEC);
+  worker.errors = memfd_create("errors", MFD_CLOEXEC);
+  int requests[2] = { -1, -1 }, answers[2] = { -1, -1 };
+  if (pipe2(requests, O_CLOEXEC) == 0 && pipe2(answers, O_CLOEXEC) == 0)
+  {
+    worker.process = fork();
+  }
+  if (worker.process == 0)
+  {
+    close(requests[1]);
+    close(answers[0]);
+    work(program, requests[0], answers[1], worker, environment);
+  }
+  close(requests[0]);
+  close(answers[1]);
+  worker.requests = requests[1];
+  worker.answers = answers[0];
+  return worker;
+}
+
+/// The status of a worker that has ended: of a signal, its number below 0.
+std::int32_t ended(Worker& worker)
+{
+  close(worker.requests); // which ends it, where nothing has
+  int status = 0;
+  pid_t waited = -1;
+  while (worker.process > 0 && (waited = waitpid(worker.process, &status, 0)) < 0 && errno == EINTR)
+  {
+  }
+  for (const int file : { worker.answers, worker.output, worker.errors })
+  {
+    close(file);
+  }
+  worker = {};
+  return waited < 0 ? -1000 : WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+/// What was written to a file, which is empty afterwards.
+std::string taken(int file)
 {
   std::string text(static_cast<std::size_t>(lseek(file, 0, SEEK_END)), '\0');
   lseek(file, 0, SEEK_SET);
   transferAll(read, file, text.data(), text.size());
-  close(file);
+  lseek(file, 0, SEEK_SET);
+  static_cast<void>(ftruncate(file, 0));
   return text;
 }
 
@@ -97,32 +175,27 @@ int serve(int, char** arguments, char** environment)
   openOnce();
   unsetenv("LD_PRELOAD"); // programs that a run starts are themselves
   unsetenv("LD_BIND_NOW");
-  for (std::uint32_t size = 0; transferAll(read, STDIN_FILENO, reinterpret_cast<char*>(&size), sizeof size);)
+  signal(SIGPIPE, SIG_IGN); // a fork that is gone is found where it does not answer
+  Worker worker;
+  for (std::string words; receive(STDIN_FILENO, words);)
   {
-    std::string words(size, '\0');
-    transferAll(read, STDIN_FILENO, words.data(), words.size());
-    const int output = memfd_create("output", MFD_CLOEXEC);
-    const int errors = memfd_create("errors", MFD_CLOEXEC);
-    const pid_t child = fork();
-    if (child == 0)
+    if (worker.process < 0)
     {
-      runOnce(arguments[0], words, output, errors, environment);
+      worker = started(arguments[0], environment);
     }
-    int status = 0;
-    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
-    {
-    }
-    const std::string texts[] = { contents(output), contents(errors) };
-    const std::int32_t head[] = { child < 0             ? -1000
-                                  : WIFSIGNALED(status) ? -WTERMSIG(status)
-                                                        : WEXITSTATUS(status),
-      static_cast<std::int32_t>(texts[0].size()), static_cast<std::int32_t>(texts[1].size()) };
+    std::int32_t status = 0;
+    const bool ends = !send(worker.requests, words) ||
+                      !transferAll(read, worker.answers, reinterpret_cast<char*>(&status), sizeof status);
+    const std::string texts[] = { taken(worker.output), taken(worker.errors) };
+    const std::int32_t head[] = { ends ? ended(worker) : status, static_cast<std::int32_t>(texts[0].size()),
+      static_cast<std::int32_t>(texts[1].size()) };
     const std::string answer = std::string(reinterpret_cast<const char*>(head), sizeof head) + texts[0] + texts[1];
     if (!transferAll(write, STDOUT_FILENO, answer.data(), answer.size()))
     {
       return 1;
     }
   }
+  ended(worker);
   return 0;
 }
 } // namespace
