@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace dgtk::app
@@ -15,16 +16,24 @@ namespace dgtk::app
 
 namespace
 {
-/// What has to be started again, as a scheduler wants it.
+/// Tasks that make what is missing, as sbatch --array= takes them: all of an array's tasks share a run among them, so
+/// that those of another one than the first cannot be named by their old numbers.
+std::string arrayOf(const MergeReport& report)
+{
+  const std::size_t most = report.workers.empty() ? 1 : report.workers.back();
+  const std::size_t tasks = std::min(report.missing.size(), most);
+  return tasks > 1 ? "0-" + std::to_string(tasks - 1) : "0";
+}
+
+/// What has to be started again: shares of those that there were, or an array.
 std::string again(const MergeReport& report)
 {
   std::string text;
   for (const std::size_t count : report.workers)
   {
-    text +=
-      (text.empty() ? "" : "; ") + std::string("of ") + std::to_string(count) + ": --array=" + report.processes(count);
+    text += "shares " + report.processes(count) + " of " + std::to_string(count) + "; ";
   }
-  return text;
+  return text + "--array=" + arrayOf(report);
 }
 
 int runMerge(const Arguments& arguments)
@@ -40,9 +49,13 @@ int runMerge(const Arguments& arguments)
   {
     nlohmann::ordered_json json{ { "merged", report.merged }, { "blocks", report.blocks }, { "files", report.files },
       { "missing", report.missing }, { "problems", report.problems } };
+    if (!report.missing.empty())
+    {
+      json["array"] = arrayOf(report);
+    }
     for (const std::size_t count : report.workers)
     {
-      json["array"][std::to_string(count)] = report.processes(count);
+      json["shares"][std::to_string(count)] = report.processes(count);
     }
     print(json.dump(2) + '\n');
   }

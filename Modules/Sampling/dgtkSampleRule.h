@@ -23,6 +23,7 @@ struct SampleRule
   std::size_t index = 0; ///< of the object or the camera in the description
   std::string path;      ///< of the rule; its own draws have paths that begin with it: "objects/cup#3/place"
   JsonDocument rule;     ///< numbers and names alone; errors of a JsonCursor in it name the rule's place in the file
+  std::string lacks{};   ///< of an object: why the sample has nothing to put it on or in; "": it has
 };
 
 /// What became of a rule: a line of samples.json.

@@ -96,15 +96,15 @@ class Cluster(Case):
         slurm.wait(job)
         self.dgtk("merge", folder)
         self.assert_same_files(self.whole, folder)
-        # A part that is lost is named as an array that can be submitted again.
+        # Parts that are lost are made by an array that merge names.
         folder = self.path("again")
         slurm.wait(slurm.submit("--array=0-2", recipe("slurm_array.sh"), DEMO, "-o", folder, *OPTIONS))
-        shutil.rmtree(os.path.join(folder, ".dgtk-parts", "000001"))
-        missing = self.refused("merge", folder, status=1, says=("1 of 6 blocks",))
+        for block in ("000000", "000002"):
+            shutil.rmtree(os.path.join(folder, ".dgtk-parts", block))
+        missing = self.refused("merge", folder, status=1, says=("2 of 6 blocks", "shares 0,2 of 3"))
         array = re.search(r"--array=\S+?(?=\))", missing).group()
-        self.assertEqual(array, "--array=1")
-        # All tasks of the array say of how many they are; one alone is told in words.
-        self.dgtk("render", DEMO, "-o", folder, *OPTIONS, "--quiet", "--shard", "1/3")
+        self.assertEqual(array, "--array=0-1")
+        slurm.wait(slurm.submit(array, recipe("slurm_array.sh"), DEMO, "-o", folder, *OPTIONS))
         self.dgtk("merge", folder)
         self.assert_same_files(self.whole, folder)
 

@@ -55,7 +55,7 @@ class Shards(Case):
         lost = os.path.join(self.path("parts"), ".dgtk-parts", "000002")
         shutil.rmtree(lost)
         report = json.loads(self.dgtk("merge", self.path("parts"), "--json", status=1).stdout)
-        self.assertEqual((report["merged"], report["missing"], report["array"]), (False, [2], {"8": "2"}))
+        self.assertEqual((report["merged"], report["missing"], report["array"], report["shares"]), (False, [2], "0", {"8": "2"}))
         self.assertFalse(os.path.exists(self.path("parts", "manifest.json")))
         self.shard(DEMO, self.path("parts"), 2, 3)
         with self.goes_at_once(self.path("parts", ".dgtk-parts")):
@@ -328,7 +328,7 @@ class Shards(Case):
         for index in range(2):
             self.shard(scenes, self.path("parts"), index, 2, options)
         flip(self.path("parts", "000001", "left", "depth", "000000.npy"), 1)
-        self.refused("merge", self.path("parts"), status=1, says=("1 of 3 blocks are missing", "--array=1"))
+        self.refused("merge", self.path("parts"), status=1, says=("1 of 3 blocks are missing", "shares 1 of 2; --array=0)"))
         self.shard(scenes, self.path("parts"), 1, 2, options)
         with self.goes_at_once(self.path("parts", ".dgtk-parts")):
             self.dgtk("merge", self.path("parts"))
@@ -352,6 +352,20 @@ class Shards(Case):
         self.write("scenes/000002.json", json.dumps({**other, "cameras": load_json(os.path.join(scenes, "000001.json"))["cameras"]}))
         self.dgtk("render", scenes, "-o", self.path("all"), *options, "--replace")
         self.assertTrue(os.path.exists(self.path("all", "manifest.json")))
+
+    def test_missing_shares_are_an_array(self):
+        """Whichever are missing: an array's tasks share what is left among them."""
+        self.dgtk("render", DEMO, "-o", self.path("whole"), *OPTIONS)
+        for index in (0, 2):
+            self.shard(DEMO, self.path("parts"), index, 4)
+        report = json.loads(self.dgtk("merge", self.path("parts"), "--json", status=1).stdout)
+        self.assertEqual((report["shares"], report["array"]), ({"4": "1,3"}, f"0-{min(len(report['missing']), 4) - 1}"))
+        last = int(report["array"].split("-")[1])
+        for task in range(last + 1):
+            self.dgtk("render", DEMO, "-o", self.path("parts"), *OPTIONS, "--shard", "auto", environment={
+                "SLURM_ARRAY_TASK_ID": str(task), "SLURM_ARRAY_TASK_MIN": "0", "SLURM_ARRAY_TASK_MAX": str(last), "SLURM_ARRAY_TASK_COUNT": str(last + 1)})
+        self.dgtk("merge", self.path("parts"))
+        self.assert_same_files(self.path("whole"), self.path("parts"))
 
     def test_launchers(self):
         options = ("--layers", "depth", "--size", "16x12", "--quiet", "--shard", "auto")

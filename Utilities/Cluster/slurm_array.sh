@@ -2,7 +2,7 @@
 # An array job of Slurm: each task makes its share of a run, with the threads of the cores that it was given.
 #
 #   sbatch --array=0-15 Utilities/Cluster/slurm_array.sh scenes -o dataset --layers color,depth,objects
-#   dgtk merge dataset          names what is missing, as an --array= list to submit again; else ends the run
+#   dgtk merge dataset          names what is missing, and an --array= that makes it, to submit again; else ends the run
 #
 # Tasks that are stopped (a time limit, a node that goes down) end with status 75 within seconds and are put back into the queue; what is
 # finished is kept. Arrays have at most 1001 tasks on many clusters: take as many as there are cores to keep busy, not one a picture.

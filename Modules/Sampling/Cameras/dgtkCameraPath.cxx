@@ -20,11 +20,11 @@ double fractionOf(const std::vector<int>& frames, std::size_t i)
   return double(frames[i] - frames.front()) / double(frames.back() - frames.front());
 }
 
-TravelledPath orbit(const JsonCursor& at, const SampleWorld& world, UpAxis up, bool looks)
+TravelledPath orbit(const JsonCursor& at, UpAxis up, bool looks)
 {
   onlyKeys(at, { "center", "radius", "elevation", "azimuth", "frames", "every" });
   constexpr Range latitude{ -90, 90, true, true, "degrees between -90 and 90" };
-  const Eigen::Vector3d center = pointOf(at["center"], world);
+  const Eigen::Vector3d center = at["center"].vector(coordinate);
   const FromTo radius = fromTo(at["radius"], positive);
   const FromTo elevation = at.has("elevation") ? fromTo(at["elevation"], latitude) : FromTo{ 0, 0 };
   const FromTo azimuth = at.has("azimuth") ? fromTo(at["azimuth"], degrees) : FromTo{ 0, 360 };
@@ -49,14 +49,14 @@ TravelledPath orbit(const JsonCursor& at, const SampleWorld& world, UpAxis up, b
 }
 
 /// Catmull-Rom through points, the time between them as their distances; u from 0 to 1.
-Track<Eigen::Vector3d> curveThrough(const JsonCursor& at, const SampleWorld& world)
+Track<Eigen::Vector3d> curveThrough(const JsonCursor& at)
 {
   constexpr double parts = 1e6; // of a curve's time
   std::vector<Eigen::Vector3d> points;
   std::vector<double> lengths{ 0 };
   for (const JsonCursor& item : at.items())
   {
-    points.push_back(pointOf(item, world));
+    points.push_back(item.vector(coordinate));
     if (points.size() > 1)
     {
       lengths.push_back(lengths.back() + (points.back() - points[points.size() - 2]).norm());
@@ -80,10 +80,10 @@ Track<Eigen::Vector3d> curveThrough(const JsonCursor& at, const SampleWorld& wor
   return curve;
 }
 
-TravelledPath spline(const JsonCursor& at, const SampleWorld& world, bool looks)
+TravelledPath spline(const JsonCursor& at, bool looks)
 {
   onlyKeys(at, { "points", "frames", "every" });
-  const Track<Eigen::Vector3d> curve = curveThrough(at["points"], world);
+  const Track<Eigen::Vector3d> curve = curveThrough(at["points"]);
   const std::vector<int> frames = framesOf(at);
   const double whole = curve.keys.back().frame;
   TravelledPath path;
@@ -119,11 +119,11 @@ TravelledPath bakedPath(
   }
   if (at.has("orbit"))
   {
-    return orbit(at["orbit"], world, up, looks);
+    return orbit(at["orbit"], up, looks);
   }
   if (at.has("spline"))
   {
-    return spline(at["spline"], world, looks);
+    return spline(at["spline"], looks);
   }
   return walkedPath(at["walk"], rule.path + "/walk", world, up, draws, attempt, looks);
 }

@@ -2,6 +2,7 @@
 #include "dgtkCameraRequirement.h"
 
 #include "dgtkPathRule.h"
+#include "dgtkSampleGeometry.h"
 #include "dgtkText.h"
 
 #include <algorithm>

@@ -32,7 +32,7 @@ struct WalkRule
   std::vector<int> frames;
 };
 
-WalkRule readWalk(const JsonCursor& at, const SampleWorld& world)
+WalkRule readWalk(const JsonCursor& at)
 {
   onlyKeys(at, { "box", "start", "speed", "turn", "clearance", "level", "attempts", "frames" });
   WalkRule rule;
@@ -46,7 +46,7 @@ WalkRule readWalk(const JsonCursor& at, const SampleWorld& world)
   }
   if (at.has("start"))
   {
-    rule.start = pointOf(at["start"], world);
+    rule.start = at["start"].vector(coordinate);
   }
   constexpr Range turns{ 0, 180, true, false, "degrees above 0, at most 180" };
   rule.speed = at["speed"].number(positive);
@@ -211,7 +211,7 @@ private:
 TravelledPath walkedPath(const JsonCursor& at, const std::string& path, SampleWorld& world, UpAxis up,
   const SampleDraws& draws, std::uint32_t attempt, bool looks)
 {
-  const WalkRule rule = readWalk(at, world);
+  const WalkRule rule = readWalk(at);
   for (int i = 0; i < rule.attempts; ++i)
   {
     const auto places = Walker(rule, world, up, draws, path + '/' + std::to_string(i), attempt).walk();

@@ -6,20 +6,6 @@
 namespace dgtk::samplerule
 {
 
-Eigen::Vector3d pointOf(const JsonCursor& at, const SampleWorld& world)
-{
-  if (at.node().type != JsonNode::Type::String)
-  {
-    return at.vector(coordinate);
-  }
-  const std::vector<std::size_t> objects = objectsLike(world.names(), at.string(false));
-  if (objects.empty())
-  {
-    at.fail("names no object of the sample", "a point or the name of an object", at.node().described());
-  }
-  return world.geometry().centreOf(objects);
-}
-
 FromTo fromTo(const JsonCursor& at, const Range& range)
 {
   if (at.node().type == JsonNode::Type::Number)

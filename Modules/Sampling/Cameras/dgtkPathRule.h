@@ -3,10 +3,7 @@
 #define dgtkPathRule_h
 
 #include "dgtkRuleValues.h"
-#include "dgtkSampleWorld.h"
 #include "dgtkSceneDescription.h"
-
-#include <Eigen/Core>
 
 #include <vector>
 
@@ -16,8 +13,6 @@ namespace dgtk::samplerule
 inline constexpr Range frameNumber{ 0, largestFrame, false, false, "a whole number from 0 to 999999" };
 inline constexpr Range tries{ 1, 10000, false, false, "a whole number from 1 to 10000" };
 
-/// A point, or the centre of the objects that a name or pattern stands for.
-Eigen::Vector3d pointOf(const JsonCursor& at, const SampleWorld& world);
 /// A number, or [first, last].
 struct FromTo
 {

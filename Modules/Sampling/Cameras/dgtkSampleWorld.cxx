@@ -12,7 +12,6 @@ namespace dgtk
 SampleWorld::SampleWorld(SceneDescription scene, SampleModels& models)
   : Scene(std::move(scene))
   , Models(models)
-  , Geometry(this->Scene, models)
 {
 }
 

@@ -2,7 +2,6 @@
 #ifndef dgtkSampleWorld_h
 #define dgtkSampleWorld_h
 
-#include "dgtkSampleGeometry.h"
 #include "dgtkSampleModels.h"
 #include "dgtkStage.h"
 #include "dgtkSurfaceDistance.h"
@@ -25,8 +24,6 @@ public:
   SampleWorld(SceneDescription scene, SampleModels& models);
 
   const SceneDescription& scene() const { return this->Scene; }
-  const std::vector<std::string>& names() const { return this->Geometry.names(); }
-  const SampleGeometry& geometry() const { return this->Geometry; }
   /// The scene at a frame, and what is known of it; the same where nothing moves.
   std::shared_ptr<const SceneState> stateAt(int frame);
   const SurfaceDistance& surfacesAt(int frame);
@@ -43,7 +40,6 @@ private:
 
   SceneDescription Scene;
   SampleModels& Models;
-  SampleGeometry Geometry;
   std::shared_ptr<const Stage> TheStage;
   bool Moves = false;
   std::map<int, Moment> Moments;

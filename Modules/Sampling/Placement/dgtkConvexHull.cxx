@@ -149,6 +149,7 @@ ConvexHull simplifiedHull(const ConvexHull& hull, double tolerance)
     if (!some.faces.empty() && outside(*furthest) <= tolerance)
     {
       some.left = outside(*furthest);
+      some.whole = hull.points;
       return some;
     }
     choose(outside);

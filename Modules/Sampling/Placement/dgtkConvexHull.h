@@ -26,7 +26,8 @@ struct ConvexHull
   std::vector<Eigen::Vector3d> points; ///< its corners; of a flat one all points
   std::vector<HalfSpace> faces;        ///< which it lies in
   double volume = 0;
-  double left = 0; ///< how far what it stands for may be above its faces: see simplifiedHull()
+  double left = 0;                    ///< how far what it stands for may be above its faces: see simplifiedHull()
+  std::vector<Eigen::Vector3d> whole; ///< the corners of what it stands for, where it is simplified
 };
 
 /// `shrink`: its faces are moved inward by that, at most by a half of what the hull bears.

@@ -330,7 +330,69 @@ void pairsBelow(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& d
       });
   }
 }
+
+/// Whether what is just below the middle of a triangle of a closed part of `a` is in one of `b`.
+bool isBelowSurface(const PlaceBody& a, const PlaceBody& b, double touch)
+{
+  const Rigid3 b_from_world = b.pose().inverse();
+  for (const SolidMesh::Part& part : a.mesh().parts)
+  {
+    for (std::size_t t = part.first; part.closed && t < part.first + part.count; ++t)
+    {
+      const Corners c = cornersOf(a, t);
+      const Eigen::Vector3d out = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
+      const Eigen::Vector3d x = (c[0] + c[1] + c[2]) / 3 - touch * out;
+      if (b.box().contains(x) && std::any_of(b.impl().closed.begin(), b.impl().closed.end(),
+                                   [&](const TriangleTree& tree) { return tree.holds(b_from_world * x); }))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool isOpen(const PlaceBody& body)
+{
+  const std::vector<SolidMesh::Part>& parts = body.mesh().parts;
+  return std::any_of(parts.begin(), parts.end(), [](const SolidMesh::Part& part) { return !part.closed; });
+}
+
+/// Whether surfaces lie on one another, over some area.
+bool isLevel(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double touch)
+{
+  bool found = false;
+  pairsBelow(
+    a, b, down, touch, [&] { return touch; },
+    [&](const Corners& p, const Corners& q, const Eigen::Vector3d& down_in_b)
+    {
+      std::vector<Eigen::Vector3d> common; // what is common of their pictures along that way
+      meetings(p, q, down_in_b,
+        [&](double t, const Eigen::Vector3d& x)
+        {
+          if (std::abs(t) <= touch)
+          {
+            common.push_back(x);
+          }
+        });
+      for (std::size_t i = 1; i < common.size(); ++i)
+      {
+        for (std::size_t j = 1; j < i; ++j)
+        {
+          const double area = down_in_b.dot((common[i] - common[0]).cross(common[j] - common[0]));
+          found = found || std::abs(area) > touch * a.size();
+        }
+      }
+    });
+  return found;
+}
 } // namespace
+
+bool coincide(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double touch)
+{
+  return a.box().exteriorDistance(b.box()) <= touch && (isBelowSurface(a, b, touch) || isBelowSurface(b, a, touch) ||
+                                                         (isOpen(a) && isOpen(b) && isLevel(a, b, down, touch)));
+}
 
 double wayDown(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double most, double depth)
 {

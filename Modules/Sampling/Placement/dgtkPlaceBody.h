@@ -115,6 +115,11 @@ struct Penetration
 };
 Penetration penetration(const PlaceBody& a, const PlaceBody& b);
 
+/// Whether bodies are in each other that penetration() finds apart, as sides of theirs lie in one plane: points just
+/// below the surface of a closed part of one are in such a part of the other, or open surfaces lie on one another.
+/// `touch`: how much is just below, and on.
+bool coincide(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double touch);
+
 /// Least distance between the surfaces; 0 where they cross. Larger ones than `most` may come out as `most`.
 double distance(const PlaceBody& a, const PlaceBody& b, double most);
 

@@ -77,6 +77,7 @@ PlaceRule readPlaceRule(const SampleRule& rule, const SceneDescription& scene)
   PlaceRule place;
   place.path = rule.path;
   place.object = rule.index;
+  place.lacks = rule.lacks;
   if (!scene.objects[rule.index].parent.empty())
   {
     at.fail("is of an object with a parent, which is where its parent is");
@@ -91,7 +92,7 @@ PlaceRule readPlaceRule(const SampleRule& rule, const SceneDescription& scene)
   {
     place.box = boxOf<Eigen::AlignedBox3d, Eigen::Vector3d>(where);
   }
-  else
+  else if (rule.lacks.empty())
   {
     place.support = objectOf(where, scene, rule.index);
     if (!scene.objects[*place.support].parent.empty())

@@ -31,6 +31,7 @@ struct PlaceRule
 {
   std::string path;
   std::size_t object = 0;                    ///< in the description
+  std::string lacks;                         ///< see SampleRule
   std::optional<std::size_t> support;        ///< object that it is put on or in; none: `box`
   Eigen::AlignedBox3d box;                   ///< world frame
   bool in = false;                           ///< in the box of the support, or in `box`

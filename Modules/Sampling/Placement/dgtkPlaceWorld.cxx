@@ -44,17 +44,37 @@ void add(SolidMesh& to, const SolidMesh& from, const Affine3& body_from_object)
   }
 }
 
+std::vector<Eigen::Vector3d> moved(const std::vector<Eigen::Vector3d>& points, const Affine3& body_from_object)
+{
+  std::vector<Eigen::Vector3d> result;
+  result.reserve(points.size());
+  for (const Eigen::Vector3d& p : points)
+  {
+    result.push_back(body_from_object * p);
+  }
+  return result;
+}
+
 void add(std::vector<ConvexHull>& to, const std::vector<ConvexHull>& from, const Affine3& body_from_object)
 {
+  constexpr double most = 0.1; // of the size; more may be left off a thin piece that the scale makes thick
+  Eigen::AlignedBox3d box;
+  const std::size_t first = to.size();
   for (const ConvexHull& piece : from)
   {
-    std::vector<Eigen::Vector3d> points;
-    for (const Eigen::Vector3d& p : piece.points)
-    {
-      points.push_back(body_from_object * p);
-    }
-    to.push_back(convexHull(points));
+    to.push_back(convexHull(moved(piece.points, body_from_object)));
     to.back().left = piece.left * body_from_object.linear.colwise().norm().maxCoeff();
+    for (const Eigen::Vector3d& p : to.back().points)
+    {
+      box.extend(p);
+    }
+  }
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    if (to[first + i].left > most * box.sizes().maxCoeff())
+    {
+      to[first + i] = fewCorners(convexHull(moved(from[i].whole, body_from_object)), box.sizes().maxCoeff());
+    }
   }
 }
 } // namespace

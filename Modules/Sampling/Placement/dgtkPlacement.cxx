@@ -61,6 +61,7 @@ class Placing
 public:
   Placing(SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models)
     : Scene(scene)
+    , Given(rules)
     , Draws(draws)
     , Rules(read(scene, rules, models))
     , World(scene, this->Rules, models)
@@ -126,6 +127,12 @@ private:
       [object](const PlaceOutcome& placed) { return placed.index != object || placed.note.kept; });
   }
 
+  /// Why there is nothing that it is put on or in; "": there is.
+  std::string lacking(const PlaceRule& rule) const
+  {
+    return rule.support && !this->isIn(*rule.support) ? quoted(this->Scene.objects[*rule.support].name) + " is left out"
+                                                      : rule.lacks;
+  }
   void put(std::size_t i);
   std::string fault(const PlaceRule& rule, PlaceBody& body);
   void drop();
@@ -139,8 +146,11 @@ private:
     }
   }
   void write(std::size_t i);
+  /// Throws InputError for a fall whose key frames are more than there are frames.
+  void checkFrames(std::size_t i, const FallingObject& fallen) const;
 
   SceneDescription& Scene;
+  const std::vector<SampleRule>& Given;
   const SampleDraws& Draws;
   std::vector<PlaceRule> Rules;
   PlaceWorld World;
@@ -170,7 +180,8 @@ std::string Placing::fault(const PlaceRule& rule, PlaceBody& body)
   for (const PlaceBody* other : this->World.others({ rule.object }))
   {
     const bool support = !rule.in && other == &this->World.body(*rule.support);
-    if (penetration(body, *other).depth > 0 || (!support && distance(body, *other, rule.clearance) < rule.clearance))
+    if (penetration(body, *other).depth > 0 || (!support && (distance(body, *other, rule.clearance) < rule.clearance ||
+                                                              coincide(body, *other, down, 0.5e-6 * body.size()))))
     {
       return "it is too near to " + quoted(other->name());
     }
@@ -183,9 +194,9 @@ void Placing::put(std::size_t i)
   const PlaceRule& rule = this->Rules[i];
   SampleNote& note = this->Placed[i].note;
   PlaceBody& body = this->World.body(rule.object);
-  if (rule.support && !this->isIn(*rule.support))
+  note.why = this->lacking(rule);
+  if (!note.why.empty())
   {
-    note.why = quoted(this->Scene.objects[*rule.support].name) + " is left out";
     return;
   }
   for (note.attempts = 1; !note.kept; ++note.attempts)
@@ -220,11 +231,12 @@ void Placing::drop()
   for (std::size_t i = 0; i < this->Rules.size(); ++i)
   {
     const PlaceRule& rule = this->Rules[i];
-    if (rule.drop && rule.support && !this->isIn(*rule.support))
+    if (!rule.drop)
     {
-      this->Placed[i].note.why = quoted(this->Scene.objects[*rule.support].name) + " is left out";
+      continue;
     }
-    else if (rule.drop)
+    this->Placed[i].note.why = this->lacking(rule);
+    if (this->Placed[i].note.why.empty())
     {
       falling.push_back({ &rule, &this->Placed[i].note, {} });
       which.push_back(i);
@@ -238,12 +250,25 @@ void Placing::drop()
     if (this->Placed[i].note.kept)
     {
       this->write(i);
+      this->checkFrames(i, falling[k]);
       writeFall(this->Scene.objects[this->Rules[i].object], falling[k]);
     }
   }
   for (std::size_t i = 0; i < this->Rules.size(); ++i)
   {
     this->judge(i);
+  }
+}
+
+void Placing::checkFrames(std::size_t i, const FallingObject& fallen) const
+{
+  const DropRule& drop = *this->Rules[i].drop;
+  const int most = largestFrame - int(fallen.poses.size()) + 1;
+  if (drop.keys && drop.from > most)
+  {
+    const JsonCursor at = JsonCursor(this->Given[i].rule)["drop"];
+    (drop.from > 0 ? at["from"] : at)
+      .fail("leaves too few frames for the fall", "at most " + std::to_string(most), std::to_string(drop.from));
   }
 }
 
@@ -255,10 +280,6 @@ void Placing::write(std::size_t i)
   if (this->Rules[i].drop)
   {
     object.orientation = Track<Quaternion>(quaternionOf(pose.rotation));
-  }
-  else
-  {
-    object.orientation = Track<Quaternion>(object.orientation.at(this->Scene.firstFrame()));
   }
 }
 } // namespace

@@ -152,6 +152,11 @@ std::shared_ptr<const SolidMesh> solidOf(SampleModels& models, const std::string
     });
 }
 
+ConvexHull fewCorners(const ConvexHull& piece, double size)
+{
+  return simplifiedHull(piece, std::min(cornerTolerance * size, 0.05 * std::cbrt(piece.volume)));
+}
+
 std::shared_ptr<const std::vector<ConvexHull>> piecesOf(SampleModels& models, const std::string& path)
 {
   return models.kept<std::vector<ConvexHull>>("pieces\n" + path,
@@ -175,8 +180,7 @@ std::shared_ptr<const std::vector<ConvexHull>> piecesOf(SampleModels& models, co
             std::max<std::size_t>(1, mostPieces / parts.size()), inside);
         for (const ConvexHull& piece : some)
         {
-          pieces->push_back(
-            simplifiedHull(piece, std::min(cornerTolerance * sizeOf(*mesh), 0.05 * std::cbrt(piece.volume))));
+          pieces->push_back(fewCorners(piece, sizeOf(*mesh)));
         }
       }
       return std::shared_ptr<const std::vector<ConvexHull>>(pieces);

@@ -39,6 +39,9 @@ std::shared_ptr<const SolidMesh> solidOf(SampleModels& models, const std::string
 /// Convex pieces of it, true to 2 % of the model's size: of each connected part, one where that is convex.
 std::shared_ptr<const std::vector<ConvexHull>> piecesOf(SampleModels& models, const std::string& path);
 
+/// A piece with as few corners as leave the others by 1 % of the size of what it is of outside, less of a small one.
+ConvexHull fewCorners(const ConvexHull& piece, double size);
+
 } // namespace dgtk
 
 #endif

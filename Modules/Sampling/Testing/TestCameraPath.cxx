@@ -166,6 +166,47 @@ TEST(CameraPath, WalksKeepClearOfWhatComesTowardsThem)
   }
 }
 
+// Of the objects one is too large for its place, one has no instances, one is there.
+TEST(CameraPath, NamesOfObjectsThatAreNotInTheSampleRefuseIt)
+{
+  const test::TemporaryFolder folder;
+  writeFile(folder.path("wall.obj"), "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3 4\n");
+  const auto sampled = [&](const std::string& camera)
+  {
+    const std::string json = R"({"objects": [{"name": "here", "model": "wall.obj", "position": [1, 2, 3]},
+      {"name": "big", "model": "wall.obj", "place": {"in": [[0, 0, 0], [1, 1, 1]]}},
+      {"name": "none", "model": "wall.obj", "count": {"integer": [0, 0]}}, {"name": "on", "parent": "none",
+      "model": "wall.obj"}], "cameras": [{"name": "a~b", )" +
+                             camera + "}]}";
+    return Sampler(RandomScene::ofText(json, folder.path())).draw(0);
+  };
+  const auto refusal = [&](const std::string& camera)
+  { return test::thrownBy<SampleRefused>([&] { sampled(camera); }); };
+  const std::string walk = R"("walk": {"box": [[0, 0, 0], [9, 9, 9]], "speed": 1, "frames": [0, 2], "start": )";
+  for (const auto& [name, why] : { std::pair<std::string, std::string>{ "\"big\"", "'big' is left out of the sample" },
+         { "\"none*\"", "'none*' has no instance in this sample" },
+         { "\"on#2\"", "'on#2' has no instance in this sample" } })
+  {
+    for (const std::string& path : { R"("orbit": {"radius": 5, "frames": [0, 2], "center": )" + name + "}",
+           R"("spline": {"frames": [0, 2], "points": [[0, 0, 0], )" + name + "]}", walk + name + "}" })
+    {
+      EXPECT_EQ(refusal("\"path\": {" + path + "}"), "cameras/a~0b/path: " + why) << path;
+      const SceneSample sample = sampled("\"path\": {" + path + R"(, "otherwise": "omit"})");
+      EXPECT_TRUE(sample.scene.cameras.empty());
+      EXPECT_EQ(sample.notes.back().path, "cameras/a~0b/path");
+    }
+    EXPECT_EQ(refusal("\"eye\": [9, 9, 9], \"lookAt\": " + name), "cameras/a~0b/lookAt: " + why);
+  }
+  const auto curve = [&](const std::string& name)
+  { return sampled(R"("path": {"spline": {"frames": [0, 2], "points": [[0, 0, 0], ")" + name + "\"]}}"); };
+  expectNear(curve("here").scene.cameras.at(0).eye.at(2), { 1, 2, 3 });
+  for (const std::string name : { "nobody", "here#1" })
+  {
+    EXPECT_THAT(
+      test::thrownBy<InputError>([&] { curve(name); }), HasSubstr("cameras[0].path.spline.points[1] names no object"));
+  }
+}
+
 TEST(CameraPath, PointsOfACurveAreApart)
 {
   const auto refusal = [](const std::string& points)

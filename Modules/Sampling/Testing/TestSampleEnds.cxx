@@ -116,6 +116,35 @@ TEST(SampleEnds, NormalsOfMirroredObjectsAreOnTheirFront)
   }
 }
 
+// A tetrahedron that goes along x by 10 in a second.
+TEST(SampleEnds, DeformingModelsHaveTheShapeOfTheFirstFrame)
+{
+  const test::TemporaryFolder folder;
+  const std::string data = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAA"
+                           "AAAAAAAAAAAIA/AAACAAEAAAABAAMAAAADAAIAAQACAAMAAAAA"
+                           "AAAAgD8AAAAAAAAAAAAAAAAAACBBAAAAAAAAAAA=";
+  writeFile(folder.path("goes.gltf"),
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"n"}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+"buffers":[{"byteLength":104,"uri":"data:application/octet-stream;base64,)" +
+      data + R"("}],
+"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24},
+{"buffer":0,"byteOffset":72,"byteLength":8},{"buffer":0,"byteOffset":80,"byteLength":24}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
+{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"},
+{"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+{"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"}],
+"animations":[{"samplers":[{"input":2,"output":3}],
+"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}]})");
+  PlaceScene made;
+  made.scene.fps = 25;
+  made.scene.extraKeyFrames = { 10, 20 };
+  made.add("goes", folder.path("goes.gltf"));
+  const SampleGeometry geometry(made.scene, PlaceScene::models());
+  EXPECT_LE((geometry.centreOf({ 0 }) - Eigen::Vector3d(4.5, 0.5, 0.5)).norm(), 1e-6);
+  EXPECT_GE(geometry.onSurface(0, { 0.5, 0.5, 0.5 }).x_in_world.x(), 4);
+}
+
 // Of [0, 1) each choice has a part that begins with its first number.
 TEST(SampleEnds, ChoicesBeginWhereTheOneBeforeEnds)
 {

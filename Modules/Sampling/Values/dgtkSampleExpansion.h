@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ public:
 
   /// Everything but the cameras; the rules of the objects go to `rules`.
   JsonNode world(std::vector<Rule>& rules);
+  /// Whether a name or pattern fits instances of an object that a sample may have without, its count being random.
+  bool mayLack(const std::string& pattern) const;
   std::size_t cameras() const { return this->CameraList == nullptr ? 0 : this->CameraList->children.size(); }
   /// A camera of an attempt; its rules by their keys.
   JsonNode camera(std::size_t index, std::uint32_t attempt, std::map<std::string, Rule>& rules);
@@ -91,6 +94,7 @@ private:
   std::map<std::string, const JsonNode*> Objects;              ///< by name
   std::map<std::string, std::string> Shown;                    ///< paths of objects, by name
   std::map<std::string, std::pair<Drawn, std::size_t>> Counts; ///< of counted objects; 0: not counted
+  std::set<std::string> Varying;                               ///< those whose count is not a number in the file
   std::vector<std::size_t> Instances;                          ///< of each object of the file
 };
 

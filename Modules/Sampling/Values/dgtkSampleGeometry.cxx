@@ -61,22 +61,39 @@ const Affine3& SampleGeometry::world_from_object(std::size_t object) const
   return this->Places.at(object);
 }
 
+std::shared_ptr<const Model> SampleGeometry::model(std::size_t object) const
+{
+  return this->Models.model(this->Scene.resolve(this->Scene.objects[object].model));
+}
+
+std::shared_ptr<const Geometry> SampleGeometry::geometry(std::size_t object, const Model& model) const
+{
+  return geometryAt(this->Scene, this->Scene.objects[object], model, this->Scene.firstFrame(), this->Shapes);
+}
+
 Eigen::Vector3d SampleGeometry::centreOf(const std::vector<std::size_t>& objects) const
 {
   Eigen::Vector3d least = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d most = -least;
   for (const std::size_t object : objects)
   {
-    const std::shared_ptr<const Model> model =
-      this->Models.model(this->Scene.resolve(this->Scene.objects[object].model));
+    const std::shared_ptr<const Model> model = this->model(object);
+    const std::shared_ptr<const Geometry> geometry = this->geometry(object, *model);
     const Affine3& world_from_object = this->world_from_object(object);
-    const bool empty = (model->boundsMin.array() > model->boundsMax.array()).any();
+    Eigen::AlignedBox3d box(model->boundsMin, model->boundsMax);
+    if (geometry != model->rest)
+    {
+      box.setEmpty();
+      std::for_each(
+        geometry->positions.begin(), geometry->positions.end(), [&box](const Eigen::Vector3d& x) { box.extend(x); });
+    }
+    const bool empty = box.isEmpty();
     for (int corner = 0; corner < 8; ++corner)
     {
       Eigen::Vector3d x_in_object = Eigen::Vector3d::Zero();
       for (int axis = 0; axis < 3 && !empty; ++axis)
       {
-        x_in_object[axis] = (corner >> axis & 1) != 0 ? model->boundsMax[axis] : model->boundsMin[axis];
+        x_in_object[axis] = (corner >> axis & 1) != 0 ? box.max()[axis] : box.min()[axis];
       }
       const Eigen::Vector3d x_in_world = world_from_object * x_in_object;
       least = least.cwiseMin(x_in_world);
@@ -88,7 +105,7 @@ Eigen::Vector3d SampleGeometry::centreOf(const std::vector<std::size_t>& objects
 
 Eigen::Vector3d SampleGeometry::Surface::corner(std::size_t triangle, std::size_t i) const
 {
-  return this->world_from_object * this->model->rest->positions[this->model->triangles[triangle][i]];
+  return this->world_from_object * this->geometry->positions[this->model->triangles[triangle][i]];
 }
 
 Eigen::Vector3d SampleGeometry::Surface::normal(std::size_t triangle) const
@@ -105,7 +122,8 @@ const SampleGeometry::Surface& SampleGeometry::surface(std::size_t object) const
     return known->second;
   }
   Surface surface;
-  surface.model = this->Models.model(this->Scene.resolve(this->Scene.objects[object].model));
+  surface.model = this->model(object);
+  surface.geometry = this->geometry(object, *surface.model);
   surface.world_from_object = this->world_from_object(object);
   for (std::size_t t = 0; t < surface.model->triangles.size(); ++t)
   {

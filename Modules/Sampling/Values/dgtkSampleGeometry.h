@@ -3,6 +3,7 @@
 #define dgtkSampleGeometry_h
 
 #include "dgtkDistributions.h"
+#include "dgtkModelClock.h"
 #include "dgtkRigid3.h"
 #include "dgtkSampleModels.h"
 #include "dgtkSceneDescription.h"
@@ -31,8 +32,8 @@ struct DrawnSurfacePoint
   Eigen::Vector3d normal_in_world{ 0, 1, 0 }; ///< of the triangle, unit length, on its front side
 };
 
-/// Where the objects of a scene are, at its first frame. What was asked once is kept: a forest of counted trees asks
-/// for the same ground as often as it has trees. One thread.
+/// Where the objects of a scene are, and what shape deforming models have, at its first frame. What was asked once is
+/// kept: a forest of counted trees asks for the same ground as often as it has trees. One thread.
 class SampleGeometry
 {
 public:
@@ -60,6 +61,7 @@ private:
   struct Surface
   {
     std::shared_ptr<const Model> model;
+    std::shared_ptr<const Geometry> geometry;
     Affine3 world_from_object;
     std::vector<double> sums; ///< of twice the areas of the triangles up to each, world frame
 
@@ -67,10 +69,14 @@ private:
     Eigen::Vector3d normal(std::size_t triangle) const; ///< as long as twice the area
   };
   const Affine3& world_from_object(std::size_t object) const;
+  std::shared_ptr<const Model> model(std::size_t object) const;
+  /// The shape of its model.
+  std::shared_ptr<const Geometry> geometry(std::size_t object, const Model& model) const;
   const Surface& surface(std::size_t object) const;
 
   const SceneDescription& Scene;
   SampleModels& Models;
+  mutable GeometryCache Shapes;
   std::vector<std::string> Names;
   mutable std::map<std::string, std::vector<std::size_t>> Like;
   mutable std::vector<Affine3> Places; ///< of all objects, when one was asked for

@@ -3,8 +3,11 @@
 #include "dgtkSampleExpansion.h"
 
 #include "dgtkError.h"
+#include "dgtkSampleGeometry.h"
 #include "dgtkSampleTree.h"
 #include "dgtkSceneRandom.h"
+
+#include <algorithm>
 
 namespace dgtk
 {
@@ -52,7 +55,12 @@ std::size_t SampleExpansion::countOf(const std::string& name)
   if (drawn == Drawn::Never)
   {
     drawn = Drawn::Now; // parents in a circle are refused by whoever reads the plain scene
-    count = this->countOf(parentOf(*item->second));
+    const std::string parent = parentOf(*item->second);
+    count = this->countOf(parent);
+    if (own != nullptr ? own->type != JsonNode::Type::Number : this->Varying.count(parent) != 0)
+    {
+      this->Varying.insert(name);
+    }
     if (own != nullptr)
     {
       at = at.below("count", "count");
@@ -207,6 +215,14 @@ JsonNode SampleExpansion::world(std::vector<Rule>& rules)
     this->parameter(use, At{ {}, {}, "parameters" });
   }
   return root;
+}
+
+bool SampleExpansion::mayLack(const std::string& pattern) const
+{
+  const std::size_t hash = pattern.rfind('#');
+  const std::string instance = hash == std::string::npos ? "#1" : pattern.substr(hash);
+  return std::any_of(this->Varying.begin(), this->Varying.end(),
+    [&](const std::string& name) { return !objectsLike({ name + instance }, pattern).empty(); });
 }
 
 std::string SampleExpansion::pathOfCamera(std::size_t index) const

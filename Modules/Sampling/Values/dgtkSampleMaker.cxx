@@ -41,6 +41,42 @@ void SampleMaker::fail(const JsonNode& node, const std::string& path, const std:
   throw InputError(this->Scene.document().file, node.line, path + ' ' + what, expected, found);
 }
 
+std::string SampleMaker::pathOf(const std::string& shown) const
+{
+  const std::size_t dot = shown.find("].");
+  if (dot == std::string::npos)
+  {
+    return shown.substr(0, shown.find('.'));
+  }
+  const std::string list = shown.substr(0, shown.find('['));
+  const std::size_t index = std::stoul(shown.substr(list.size() + 1));
+  const JsonNode* const items = this->Tree.find(list); // without cameras
+  const JsonNode* const name = items == nullptr ? nullptr : items->children.at(index).find("name");
+  const std::string item = items == nullptr
+                             ? this->Expansion.pathOfCamera(index)
+                             : list + '/' + (name == nullptr ? std::to_string(index) : escaped(name->text));
+  return item + '/' + shown.substr(dot + 2, shown.find_first_of(".[", dot + 2) - dot - 2);
+}
+
+std::string SampleMaker::whyAbsent(const std::string& pattern) const
+{
+  if (!objectsLike(this->Gone, pattern).empty())
+  {
+    return quoted(pattern) + " is left out of the sample";
+  }
+  return this->Expansion.mayLack(pattern) ? quoted(pattern) + " has no instance in this sample" : std::string();
+}
+
+std::string SampleMaker::whyUnsupported(const JsonNode& rule) const
+{
+  const JsonNode* const on = rule.find("on");
+  const JsonNode* const support = on == nullptr ? rule.find("in") : on;
+  return support != nullptr && support->type == JsonNode::Type::String &&
+             objectsLike(objectNamesOf(this->Objects), support->text).empty()
+           ? this->whyAbsent(support->text)
+           : std::string();
+}
+
 SceneDescription SampleMaker::readTree(const JsonNode& tree) const
 {
   const JsonDocument document{ tree, this->Scene.document().file };
@@ -66,9 +102,10 @@ bool SampleMaker::settle(JsonNode& node, const std::string& shown, const std::se
       }
       const GeometryPoint point = geometryPointOf(at);
       const std::vector<std::size_t>& found = this->Geometry->like(point.object);
-      if (found.empty() && !objectsLike(this->Gone, point.object).empty())
+      const std::string absent = found.empty() ? this->whyAbsent(point.object) : std::string();
+      if (!absent.empty())
       {
-        throw SampleRefused(path, quoted(point.object) + " is left out of the sample", 1);
+        throw SampleRefused(this->pathOf(path), absent, 1);
       }
       if (found.empty() || (point.onSurface && found.size() > 1))
       {
@@ -155,9 +192,9 @@ void SampleMaker::place()
   this->readObjects();
   this->Geometry.reset(); // which move now
   std::vector<SampleRule> rules;
-  for (Rule& rule : this->Rules)
+  for (const Rule& rule : this->Rules)
   {
-    rules.push_back({ rule.index, rule.path, std::move(rule.rule) });
+    rules.push_back({ rule.index, rule.path, rule.rule, this->whyUnsupported(rule.rule.root) });
   }
   const std::vector<PlaceOutcome> placed = placement().placeObjects(this->Objects, rules, this->Draws, this->Models);
   // As a scene is written, so that what was measured is what is read.
@@ -173,11 +210,12 @@ void SampleMaker::place()
     }
     for (const char* key : { "position", "orientation" })
     {
+      removeMember(items[one.index], key); // what is written without is its default
       if (const JsonNode* const value = written.root.find("objects")->children[one.index].find(key))
       {
         JsonNode copy = *value;
         copy.line = items[one.index].line;
-        setMember(items[one.index], key, std::move(copy));
+        items[one.index].add(key, std::move(copy));
       }
     }
   }
@@ -239,6 +277,7 @@ void SampleMaker::travel(
   const std::string shown = "cameras[" + std::to_string(index) + ']';
   this->refusePose(camera, { "eye", "position", "orientation" }, shown, "path");
   SampleRule settled = path;
+  aimPathAtNames(settled.rule.root);
   this->settle(settled.rule.root, shown + ".path", {});
   const bool looks = camera.find("lookAt") != nullptr;
   const TravelledPath baked = bakedPath(settled, this->world(), this->Scene.upAxis(), this->Draws, attempt, looks);

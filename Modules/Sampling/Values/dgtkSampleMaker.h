@@ -3,6 +3,7 @@
 #define dgtkSampleMaker_h
 
 #include "dgtkSampleExpansion.h"
+#include "dgtkSampleGeometry.h"
 #include "dgtkSampleWorld.h"
 #include "dgtkSampler.h"
 
@@ -30,6 +31,12 @@ private:
   [[noreturn]] void fail(const JsonNode& node, const std::string& path, const std::string& what,
     const std::string& expected, const std::string& found) const;
   void checkWanted() const;
+  /// The path of a rule or value that errors call "cameras[0].lookAt.keys": "cameras/left/lookAt".
+  std::string pathOf(const std::string& shown) const;
+  /// Why a sample of the scene has no object of a name or pattern; "": the scene has none.
+  std::string whyAbsent(const std::string& pattern) const;
+  /// Why there is nothing that a rule `place` puts its object on or in; "": there is, or the rule is wrong.
+  std::string whyUnsupported(const JsonNode& rule) const;
   SceneDescription readTree(const JsonNode& tree) const;
   /// Replaces the points below a node whose objects have their places; true when all are.
   bool settle(JsonNode& node, const std::string& shown, const std::set<std::size_t>& waiting);

@@ -23,6 +23,14 @@ JsonNode vectorNode(const Eigen::Vector3d& v, int line)
 }
 
 JsonNode* memberOf(JsonNode& object, const std::string& key) { return const_cast<JsonNode*>(object.find(key)); }
+
+void aim(JsonNode& at)
+{
+  if (at.type == JsonNode::Type::String)
+  {
+    at = nodeOf({ false, at.text, { 0, 0, 0 }, 0 }, at.line);
+  }
+}
 } // namespace
 
 bool isAmong(const std::string& word, const std::vector<std::string>& words)
@@ -138,17 +146,30 @@ void replacePoints(JsonNode& node, const std::string& path, const PointVisitor& 
 
 void aimAtNames(JsonNode& item, const std::string& key)
 {
-  JsonNode* const at = item.type == JsonNode::Type::Object ? memberOf(item, key) : nullptr;
-  if (at != nullptr && at->type == JsonNode::Type::String)
+  if (JsonNode* const at = memberOf(item, key))
   {
-    *at = nodeOf({ false, at->text, { 0, 0, 0 }, 0 }, at->line);
+    aim(*at);
+  }
+}
+
+void aimPathAtNames(JsonNode& path)
+{
+  for (const char* kind : { "orbit", "walk", "spline" })
+  {
+    if (JsonNode* const one = memberOf(path, kind))
+    {
+      aimAtNames(*one, "center");
+      aimAtNames(*one, "start");
+      std::vector<JsonNode>& points = itemsOf(*one, "points");
+      std::for_each(points.begin(), points.end(), aim);
+    }
   }
 }
 
 JsonNode objectsAlone(const JsonNode& root)
 {
   JsonNode alone(JsonNode::Type::Object);
-  for (const char* key : { "upAxis", "fps", "keyFrames", "objects" })
+  for (const char* key : { "upAxis", "units", "metresPerUnit", "fps", "keyFrames", "objects" })
   {
     if (const JsonNode* const value = root.find(key))
     {

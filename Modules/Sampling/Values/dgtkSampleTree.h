@@ -35,6 +35,8 @@ using PointVisitor = std::function<bool(const JsonNode& node, const std::string&
 void replacePoints(JsonNode& node, const std::string& path, const PointVisitor& visit);
 /// Names of objects that are given where a camera looks and where a light shines become their centres.
 void aimAtNames(JsonNode& item, const std::string& key);
+/// The same of the points of a camera's path.
+void aimPathAtNames(JsonNode& path);
 
 /// A scene of the objects alone; what is not decided yet is at (1, 1, 1).
 JsonNode objectsAlone(const JsonNode& root);

@@ -256,27 +256,55 @@ WorldMesh closedParts(const WorldMesh& mesh)
   return closed;
 }
 
-double deepestWithin(const WorldMesh& a, const WorldMesh& whole)
+/// How far a point within a closed mesh is from its surface; 0 outside.
+double depthOf(const Eigen::Vector3d& x, const WorldMesh& mesh)
 {
-  const WorldMesh b = closedParts(whole);
+  if (!mesh.box.contains(x) || std::abs(winding(x, mesh)) < 0.5)
+  {
+    return 0;
+  }
+  double depth = std::numeric_limits<double>::max();
+  for (const WorldTriangle& t : mesh.triangles)
+  {
+    depth = std::min(depth, distanceTo(x, t));
+  }
+  return depth;
+}
+
+double deepestWithin(const WorldMesh& a, const WorldMesh& closed)
+{
   double deepest = 0;
   for (const WorldTriangle& t : a.triangles)
   {
     for (const Eigen::Vector3d& x : t)
     {
-      if (!b.box.contains(x) || std::abs(winding(x, b)) < 0.5)
-      {
-        continue;
-      }
-      double depth = std::numeric_limits<double>::max();
-      for (const WorldTriangle& other : b.triangles)
-      {
-        depth = std::min(depth, distanceTo(x, other));
-      }
-      deepest = std::max(deepest, depth);
+      deepest = std::max(deepest, depthOf(x, closed));
     }
   }
   return deepest;
+}
+
+/// Of closed meshes with sides in one plane, which go through none of the other and have no corner within: the diameter
+/// of a ball in both, on the way in from the middles of sides.
+double diameterOfBall(const WorldMesh& a, const WorldMesh& b)
+{
+  double largest = 0;
+  for (const WorldTriangle& t : a.triangles)
+  {
+    const Eigen::Vector3d area = (t[1] - t[0]).cross(t[2] - t[0]);
+    for (const double side : { -1, 1 })
+    {
+      double radius = area.squaredNorm() > 0 ? 1 : 0;
+      for (double way = 1e-6 * a.box.sizes().maxCoeff(); radius > 0; way *= 2)
+      {
+        const Eigen::Vector3d x = (t[0] + t[1] + t[2]) / 3 + side * way * area.normalized();
+        radius = depthOf(x, b);
+        radius = radius > 0 ? std::min(radius, depthOf(x, a)) : 0;
+        largest = std::max(largest, 2 * radius);
+      }
+    }
+  }
+  return largest;
 }
 } // namespace
 
@@ -300,7 +328,10 @@ double overlapDepth(const WorldMesh& a, const WorldMesh& b)
   pairs(a, b, Eigen::Vector3d::Zero(),
     [&](const WorldTriangle& s, const WorldTriangle& t)
     { deepest = cross(s, t) ? std::max(deepest, depthOfPair(s, t)) : deepest; });
-  return std::max({ deepest, deepestWithin(a, b), deepestWithin(b, a) });
+  const WorldMesh closedA = closedParts(a);
+  const WorldMesh closedB = closedParts(b);
+  deepest = std::max({ deepest, deepestWithin(a, closedB), deepestWithin(b, closedA) });
+  return deepest > 0 ? deepest : std::max(diameterOfBall(closedA, closedB), diameterOfBall(closedB, closedA));
 }
 
 } // namespace dgtk

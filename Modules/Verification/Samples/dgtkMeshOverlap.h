@@ -25,7 +25,8 @@ struct WorldMesh
 /// Surfaces that cross already do not count.
 double freeWay(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& way);
 
-/// The depth of the deepest pair of triangles that cross, and of the deepest vertex of one body within the other.
+/// The depth of the deepest pair of triangles that cross, and of the deepest vertex of one body within the other; where
+/// there is neither, as their sides lie in one plane, the diameter of a ball that is in closed parts of both.
 double overlapDepth(const WorldMesh& a, const WorldMesh& b);
 
 } // namespace dgtk

@@ -31,7 +31,20 @@ struct Claim
   std::string object;
   double tolerance = 0;
   bool held = false;
+  bool fell = false; ///< in key frames: it lies where it is at the last
 };
+
+/// A name of a path, where `/` is `~1` and `~` is `~0`.
+std::string nameOf(const std::string& escaped)
+{
+  std::string name;
+  for (std::size_t i = 0; i < escaped.size(); ++i)
+  {
+    const bool isEscape = escaped[i] == '~' && i + 1 < escaped.size();
+    name += !isEscape ? escaped[i] : escaped[++i] == '1' ? '/' : '~';
+  }
+  return name;
+}
 
 std::vector<Claim> claimsOf(const Json& sample)
 {
@@ -47,14 +60,14 @@ std::vector<Claim> claimsOf(const Json& sample)
     {
       continue;
     }
-    claims.push_back({ path.substr(first.size(), path.size() - first.size() - last.size()), measured.at("tolerance"),
-      measured.contains("gap") });
+    claims.push_back({ nameOf(path.substr(first.size(), path.size() - first.size() - last.size())),
+      measured.at("tolerance"), measured.contains("gap"), measured.contains("frames") });
   }
   return claims;
 }
 
-/// The bodies of a scene at its first frame, those that were placed where they lie at the last, by the names of the
-/// objects that carry the others. Models have their first shape.
+/// The bodies of a scene at its first frame, those that fell in key frames where they lie at the last, by the names of
+/// the objects that carry the others. Models have their first shape.
 std::map<std::string, WorldMesh> bodiesOf(const SceneDescription& scene, const std::vector<Claim>& claims)
 {
   std::map<std::string, std::string> parents;
@@ -66,9 +79,9 @@ std::map<std::string, WorldMesh> bodiesOf(const SceneDescription& scene, const s
     const auto at = [&object](int frame) {
       return Rigid3{ object.orientation.at(frame).matrix(), object.position.at(frame) };
     };
-    const bool placed =
-      std::any_of(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.object == object.name; });
-    moves[object.name] = placed ? at(scene.lastFrame()) * at(first).inverse() : Rigid3();
+    const bool fell = std::any_of(
+      claims.begin(), claims.end(), [&](const Claim& claim) { return claim.fell && claim.object == object.name; });
+    moves[object.name] = fell ? at(scene.lastFrame()) * at(first).inverse() : Rigid3();
   }
   std::map<std::string, WorldMesh> bodies;
   const std::shared_ptr<const Stage> stage = Stage::load(scene);

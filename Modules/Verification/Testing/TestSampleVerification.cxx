@@ -136,6 +136,20 @@ TEST(MeshOverlap, TheFreeWayEndsWhereSurfacesTouch)
   EXPECT_NEAR(freeWay(box({ -0.2, -1.4, -0.3 }, { 0.8, -0.6, 0.7 }), cube, -way), 0.2, 1e-12);
 }
 
+TEST(MeshOverlap, SidesInOnePlaneHideNone)
+{
+  const WorldMesh cube = box({ -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 });
+  const auto aside = [&](double way) {
+    return overlapDepth(box({ way - 0.5, -0.5, -0.5 }, { way + 0.5, 0.5, 0.5 }), cube);
+  };
+  for (const double way : { 0.0, 0.02, 0.3, 0.9 })
+  {
+    EXPECT_GE(aside(way), 0.3 * (1 - way)) << way;
+    EXPECT_LE(aside(way), 1 - way + 1e-12) << way;
+  }
+  EXPECT_EQ(aside(1), 0) << "they touch";
+}
+
 TEST(MeshOverlap, OnlyClosedPartsHaveAnInside)
 {
   const WorldMesh cube = box({ -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 });
@@ -188,6 +202,19 @@ TEST(SampleVerification, SeesWhatHoversAndWhatSinks)
   EXPECT_EQ(sinks.firstBreach()->check, "penetration");
 }
 
+TEST(SampleVerification, NamesMayHaveWhatPathsEscape)
+{
+  const auto passes = [](const std::string& name, const std::string& escaped)
+  {
+    const std::string scene = R"({ "seed": 7, "objects": [ )" + object("table", "table", "") + ", " +
+                              object(name, "brick", R"(, "position": [0.1, 0.75, 0.1])") + " ] }";
+    return samples(scene, "brick", escaped).passed();
+  };
+  EXPECT_TRUE(passes("a/b~c#1", "a~1b~0c#1"));
+  EXPECT_TRUE(passes("a~1", "a~01"));
+  EXPECT_FALSE(passes("a~1", "a~1"));
+}
+
 TEST(SampleVerification, DownIsWhereTheSceneSaysSo)
 {
   const std::string lying = R"(, "orientation": [0.7071067811865476, 0.7071067811865476, 0, 0])";
@@ -223,20 +250,25 @@ TEST(SampleVerification, OthersStandWhereTheyAreAtFirstAndWhatFellLiesWhereItIsA
 {
   const auto moving = [](const std::string& first, const std::string& last)
   { return R"(, "position": { "keys": [[2, [)" + first + "]], [5, [" + last + "]]] }"; };
-  const auto passes = [&](const std::string& brick, const std::string& other)
+  const auto passes = [&](const std::string& brick, const std::string& other, const std::string& frames)
   {
     return samples(R"({ "seed": 7, "objects": [ )" + object("table", "table", "") + ", " +
-                   object("brick", "brick", brick) + ", " + object("other", "brick", other) + " ] }")
+                     object("brick", "brick", brick) + ", " + object("other", "brick", other) + " ] }",
+      R"("gap": 0)", R"("gap": 0)" + frames)
       .passed();
   };
+  const std::string fell = R"(, "frames": 4)";
   const std::string rest = "0.1, 0.7503, 0.1";
   const std::string away = "3, 0, 3";
   const std::string lying = R"(, "position": [)" + rest + "]";
   const std::string within = "0.11, 0.7603, 0.1";
-  EXPECT_TRUE(passes(lying, moving(away, within)));
-  EXPECT_FALSE(passes(lying, moving(within, away)));
-  EXPECT_TRUE(passes(moving("0.1, 2, 0.1", rest), moving(away, "0, 0.76, 0.1")));
-  EXPECT_FALSE(passes(moving(rest, "0.1, 2, 0.1"), ""));
+  EXPECT_TRUE(passes(lying, moving(away, within), fell));
+  EXPECT_FALSE(passes(lying, moving(within, away), fell));
+  EXPECT_TRUE(passes(moving("0.1, 2, 0.1", rest), moving(away, "0, 0.76, 0.1"), fell));
+  EXPECT_FALSE(passes(moving(rest, "0.1, 2, 0.1"), "", fell));
+  const std::string turning = lying + R"(, "orientation": { "keys": [[2, [1, 0, 0, 0]], [5, [0.6, 0.8, 0, 0]]] })";
+  EXPECT_TRUE(passes(turning, moving(away, away), "")) << "what was put";
+  EXPECT_FALSE(passes(turning, moving(away, away), fell));
 }
 
 TEST(SampleVerification, TheRecordAgreesWithItselfAndItsFiles)
