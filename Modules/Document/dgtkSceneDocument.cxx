@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneDocument.h"
 
+#include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkModelReader.h"
 
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace dgtk
@@ -20,6 +23,59 @@ std::string currentFolder() { return std::filesystem::current_path().generic_str
 std::size_t sizeOf(const SceneDescription& scene)
 {
   return scene.objects.size() + scene.lights.size() + scene.cameras.size();
+}
+
+/// "" for a file that cannot be read.
+std::string hashIfAny(const std::string& path)
+{
+  try
+  {
+    return hashOfFile(path);
+  }
+  catch (const InputError&)
+  {
+    return {};
+  }
+}
+
+/// Of a scene's JSON, which has no slash but in them and in strings.
+bool hasComments(const std::string& json)
+{
+  bool isString = false;
+  for (std::size_t i = 0; i < json.size(); ++i)
+  {
+    if (json[i] == '"')
+    {
+      isString = !isString;
+    }
+    else if (json[i] == '\\' && isString)
+    {
+      ++i;
+    }
+    else if (json[i] == '/' && !isString)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::set<std::string> modelFiles(const SceneDescription& scene)
+{
+  std::set<std::string> files;
+  for (const ObjectDescription& object : scene.objects)
+  {
+    files.insert(scene.resolve(object.model));
+  }
+  return files;
+}
+
+void addAges(std::map<std::string, FileAge>& ages, const SceneDescription& scene)
+{
+  for (const std::string& file : modelFiles(scene))
+  {
+    ages.try_emplace(file, file);
+  }
 }
 } // namespace
 
@@ -37,6 +93,8 @@ void SceneDocument::reset(SceneDescription scene, const std::string& path, std::
 {
   this->Path = path;
   this->put(std::move(scene));
+  this->Known = this->Models.size();
+  addAges(this->Read, this->Scene);
   ++this->Opened;
   this->Done.clear();
   this->Undone.clear();
@@ -47,6 +105,7 @@ void SceneDocument::reset(SceneDescription scene, const std::string& path, std::
 void SceneDocument::clear()
 {
   this->Models = ModelLibrary();
+  this->Read.clear();
   SceneDescription scene;
   scene.folder = currentFolder();
   this->reset(std::move(scene), {}, 0);
@@ -56,7 +115,9 @@ std::optional<LoadedScene> SceneDocument::read(const std::string& path, const Lo
 {
   LoadedScene loaded;
   loaded.path = std::filesystem::absolute(path).lexically_normal().string();
+  loaded.hash = hashIfAny(loaded.path);
   loaded.scene = readScene(loaded.path);
+  addAges(loaded.read, loaded.scene);
   return loaded.models.load(loaded.scene, progress, AbsentModel::Box) ? std::make_optional(std::move(loaded))
                                                                       : std::nullopt;
 }
@@ -64,6 +125,8 @@ std::optional<LoadedScene> SceneDocument::read(const std::string& path, const Lo
 void SceneDocument::install(LoadedScene loaded)
 {
   this->Models = std::move(loaded.models);
+  this->Read = std::move(loaded.read);
+  this->Hash = loaded.hash;
   this->reset(std::move(loaded.scene), loaded.path, 0);
 }
 
@@ -72,6 +135,8 @@ void SceneDocument::open(const std::string& path) { this->install(*read(path)); 
 void SceneDocument::recover(LoadedScene loaded, const std::string& origin)
 {
   this->Models = std::move(loaded.models);
+  this->Read = std::move(loaded.read);
+  this->Hash = hashIfAny(origin);
   this->reset(std::move(loaded.scene), origin, unreachable);
 }
 
@@ -80,10 +145,49 @@ void SceneDocument::saveAs(const std::string& path)
   const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
   writeScene(this->Scene, absolute);
   this->Path = absolute;
+  this->Hash = hashIfAny(absolute);
   this->Scene.file = absolute;
   this->finishMerging();
   this->Clean = this->Done.size();
   this->notify();
+}
+
+bool SceneDocument::isReplaced() const { return !this->Path.empty() && hashIfAny(this->Path) != this->Hash; }
+
+bool SceneDocument::losesComments() const
+{
+  try
+  {
+    return std::filesystem::path(this->Path).extension() == ".json" && hasComments(readFile(this->Path));
+  }
+  catch (const InputError&)
+  {
+    return false;
+  }
+}
+
+std::vector<std::string> SceneDocument::replacedModels() const
+{
+  std::vector<std::string> files;
+  for (const std::string& file : modelFiles(this->Scene))
+  {
+    const auto read = this->Read.find(file);
+    if (read != this->Read.end() && read->second.isFile() && !(read->second == FileAge(file)))
+    {
+      files.push_back(file);
+    }
+  }
+  return files;
+}
+
+void SceneDocument::loadModels(const SceneDescription& scene)
+{
+  this->Models.load(scene);
+  if (this->Models.size() != this->Known)
+  {
+    this->Known = this->Models.size();
+    addAges(this->Read, scene);
+  }
 }
 
 void SceneDocument::writeCopy(const std::string& path) const
@@ -127,7 +231,7 @@ void SceneDocument::edit(
   SceneDescription after = this->Scene;
   change(after);
   validate(after);
-  this->Models.load(after);
+  this->loadModels(after);
   Step step;
   step.text = text;
   step.merge = merge;
@@ -149,7 +253,7 @@ void SceneDocument::editItem(const std::string& text, const SceneItem& item,
   {
     change(this->Scene);
     validate(this->Scene);
-    this->Models.load(this->Scene);
+    this->loadModels(this->Scene);
   }
   catch (...)
   {

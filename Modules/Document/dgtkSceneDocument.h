@@ -4,11 +4,13 @@
 
 #include "dgtkDocumentModule.h"
 
+#include "dgtkHash.h"
 #include "dgtkModelLibrary.h"
 #include "dgtkSceneEdits.h"
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +26,8 @@ struct LoadedScene
   SceneDescription scene;
   ModelLibrary models;
   std::string path;
+  std::string hash{};                    ///< of the file
+  std::map<std::string, FileAge> read{}; ///< the files of the models
 };
 
 /// A scene that is being edited: description, file, models, undo and redo. Knows nothing of windows. Every edit is
@@ -42,6 +46,12 @@ public:
   /// "" before the first save.
   const std::string& path() const { return this->Path; }
   bool modified() const { return this->Done.size() != this->Clean; }
+  /// Whether the file at path() is no longer what was read or saved here: another program has written or removed it.
+  bool isReplaced() const;
+  /// Whether that file has comments, which saving removes.
+  bool losesComments() const;
+  /// Files of the scene's models that are no longer what was read.
+  std::vector<std::string> replacedModels() const;
   /// Scenes so far: another number, and other models, after clear(), install(), open() and recover().
   std::size_t opened() const { return this->Opened; }
   /// Called after every change of scene, path or modified().
@@ -124,12 +134,16 @@ private:
   void put(SceneDescription scene);
   bool lastChangesNothing() const;
   void forget();
+  void loadModels(const SceneDescription& scene);
   void reset(SceneDescription scene, const std::string& path, std::size_t clean);
   void notify() const;
 
   SceneDescription Scene;
   std::string Path;
+  std::string Hash; ///< of its file
   ModelLibrary Models;
+  std::size_t Known = 0;               ///< of the models: how many there were when their files were looked at
+  std::map<std::string, FileAge> Read; ///< the files
   std::size_t Opened = 0;
   std::vector<Step> Done;
   std::vector<Step> Undone;

@@ -283,10 +283,8 @@ void MatchDialog::showPair(int row)
       this->askMatch();
       this->findChild<QLabel*>("match.from")
         ->setText(tr("The scene has no view of %1, frame %2, with %3 x %4 pixels.")
-                    .arg(toText(view.camera))
-                    .arg(view.frame)
-                    .arg(view.width)
-                    .arg(view.height));
+                    .arg(toText(view.camera), QString::number(view.frame), QString::number(view.width),
+                      QString::number(view.height)));
       return;
     }
   }

@@ -29,6 +29,7 @@ namespace dgtk
 
 namespace
 {
+constexpr int buttonRoom = 16; // pixels beside a button's text, at least
 const QColor pickedColor(255, 214, 64);
 const QColor lineColor(64, 200, 255);
 const QColor pairColor(235, 235, 235);
@@ -172,6 +173,7 @@ void MatchDialog::makeControls(QVBoxLayout* layout)
 QLabel* MatchDialog::addNumber(QFormLayout* form, const QString& label, const char* name)
 {
   auto* value = new QLabel;
+  value->setTextFormat(Qt::PlainText);
   value->setObjectName(name);
   value->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   value->setWordWrap(true);
@@ -209,6 +211,7 @@ QWidget* MatchDialog::makePairs()
     auto* button = new QPushButton(text);
     button->setObjectName(name);
     button->setAutoDefault(false);
+    button->setMinimumWidth(button->fontMetrics().horizontalAdvance(text) + buttonRoom);
     row->addWidget(button);
     return button;
   };

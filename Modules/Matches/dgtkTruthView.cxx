@@ -36,6 +36,7 @@ TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
 {
   QHBoxLayout* const title = views.title(ViewKind::Perspective);
   this->Subject->setObjectName("truthSubject");
+  this->Subject->setTextFormat(Qt::PlainText);
   this->Choice->setObjectName("truthLayer");
   this->Choice->setToolTip(tr("What the perspective view shows"));
   this->Choice->addItem(tr("Colour"), QString());

@@ -120,6 +120,7 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const Camer
   this->Path->setMaximumHeight(pathHeight);
   form->addRow(tr("&Path"), this->Path);
   this->Fault = new QLabel;
+  this->Fault->setTextFormat(Qt::PlainText);
   this->Fault->setObjectName("fault");
   this->Fault->setWordWrap(true);
   this->Fault->hide();

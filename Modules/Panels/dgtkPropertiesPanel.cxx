@@ -230,6 +230,7 @@ void PropertiesPanel::edit(const QString& label, const std::function<void(SceneD
 void PropertiesPanel::addLine(const QString& label, const QString& text)
 {
   auto* value = new QLabel(text, this->Form->parentWidget());
+  value->setTextFormat(Qt::PlainText);
   value->setTextInteractionFlags(Qt::TextSelectableByMouse);
   value->setWordWrap(true);
   this->Form->addRow(label, value);

@@ -26,6 +26,7 @@ constexpr int drawEvery = 10;   // milliseconds
 constexpr int rateDecimals = 3; // film and television: 23.976
 constexpr double slowest = 0.001;
 constexpr double fastest = 1e6; // the most that a scene may have
+constexpr int narrowest = 80;   // pixels of a field or button, where the window is narrow
 } // namespace
 
 QToolButton* TimeLine::addButton(QBoxLayout* layout, const char* name, int icon, const QString& tip)
@@ -54,6 +55,7 @@ void TimeLine::addFrameFields(QBoxLayout* layout)
   this->Rate->setRange(slowest, fastest);
   this->Rate->setKeyboardTracking(false);
   this->Rate->setSuffix(tr(" frames/s"));
+  this->Rate->setMinimumWidth(narrowest);
   this->Rate->setToolTip(tr("The scene's frame rate: of playing, and of the models' sequences"));
   leaveUndo(this->Rate);
   layout->addWidget(this->Rate);
@@ -86,10 +88,14 @@ TimeLine::TimeLine(EditorState& state, QWidget* parent)
   this->addFrameFields(controls);
   auto* make = new QPushButton(tr("Make &key frame"), this);
   make->setObjectName("makeKeyFrame");
-  controls->addWidget(make);
   auto* remove = new QPushButton(tr("&Remove key frame"), this);
   remove->setObjectName("removeKeyFrame");
-  controls->addWidget(remove);
+  for (QPushButton* const button : { make, remove })
+  {
+    button->setMinimumWidth(narrowest);
+    button->setToolTip(QString(button->text()).remove('&'));
+    controls->addWidget(button);
+  }
   controls->addStretch(1);
 
   auto* layout = new QVBoxLayout(this);

@@ -49,7 +49,7 @@ int TimeLineRows::frames(int now) const
     const double end = row.bar ? row.bar->start + (std::isinf(row.bar->length) ? 0 : row.bar->length) : 0;
     last = std::max(last, int(std::clamp(end, 0.0, double(largestFrame))));
   }
-  return std::min(largestFrame, std::max({ fewestFrames, last + framesAfterLast, now + framesAfterLast }));
+  return std::min(largestFrame + 1, std::max({ fewestFrames, last + framesAfterLast, now + framesAfterLast }));
 }
 
 int TimeLineRows::leftOf(int frame) const { return namesWidth + frame * cellWidth - this->scrolled.x(); }

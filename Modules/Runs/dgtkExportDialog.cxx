@@ -147,6 +147,7 @@ void ExportDialog::makeButtons(QVBoxLayout* layout)
   this->Progress->setValue(0);
   layout->addWidget(this->Progress);
   this->Status = new QLabel;
+  this->Status->setTextFormat(Qt::PlainText);
   this->Status->setObjectName("status");
   this->Status->setWordWrap(true);
   layout->addWidget(this->Status);

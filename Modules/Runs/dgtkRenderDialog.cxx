@@ -191,7 +191,7 @@ QStringList RenderDialog::arguments(const QString& scene) const
 QString RenderDialog::sceneFile()
 {
   SceneDocument& document = this->State.document();
-  if (!document.modified() && !document.path().empty())
+  if (!document.modified() && !document.path().empty() && !document.isReplaced())
   {
     return QFileInfo(toText(document.path())).absoluteFilePath();
   }
@@ -286,6 +286,7 @@ void RenderDialog::start()
     this->rememberChoices();
     this->begin();
     emit this->noted("dgtk " + shellLine(request.arguments + how));
+    emit this->started();
     this->Process.start(request, how);
   }
 }

@@ -55,6 +55,7 @@ public:
 signals:
   void noted(const QString& line);
   void resultAsked(const QString& folder);
+  void started(); ///< a new run, or one that goes on
   void shown();
   /// `fraction`: in [0, 1]; negative before it is known.
   void progressed(double fraction, const QString& left);

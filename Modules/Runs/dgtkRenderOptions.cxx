@@ -15,6 +15,17 @@
 namespace dgtk
 {
 
+namespace
+{
+/// Of the command line's options that are no layer's, and that no other page of the dialog has.
+const OptionRow& classFile()
+{
+  static const NamesOption row("classes", "FILE",
+    "numbers of the classes of scenes that fix none (default: in the order in which objects have them)");
+  return row;
+}
+} // namespace
+
 RenderOptions::RenderOptions(QWidget* parent)
   : OptionFields("render/options", parent)
 {
@@ -36,6 +47,7 @@ RenderOptions::RenderOptions(QWidget* parent)
   {
     this->add(*row, row->kind == OptionRow::Kind::Names && !row->choices.empty() ? formats : form);
   }
+  this->add(classFile(), form);
   for (const LayerInfo& info : generatorLayers())
   {
     for (Field& field : this->fields())

@@ -97,6 +97,7 @@ RunFolder::Begin RunFolder::begin(bool goOn, const QByteArray& scene, QWidget* p
 RunFolder::Begin RunFolder::askToGoOn(const QString& what, QWidget* parent)
 {
   QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"), what, QMessageBox::Cancel, parent);
+  box.setTextFormat(Qt::PlainText);
   box.setObjectName("unfinishedRunBox");
   box.setInformativeText(tr("Go on with it, or replace it by this run? What it has made so far goes then."));
   QPushButton* const goOn = box.addButton(tr("Go on"), QMessageBox::AcceptRole);
@@ -112,6 +113,7 @@ RunFolder::Begin RunFolder::askToGoOn(const QString& what, QWidget* parent)
 RunFolder::Begin RunFolder::askToReplace(const QString& what, QWidget* parent)
 {
   QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"), what, QMessageBox::Cancel, parent);
+  box.setTextFormat(Qt::PlainText);
   box.setObjectName("replaceDatasetBox");
   box.setInformativeText(tr("Replace it by this run? Cancel to name another folder."));
   QPushButton* const replace = box.addButton(tr("Replace"), QMessageBox::DestructiveRole);

@@ -92,6 +92,7 @@ SampleDialog::~SampleDialog()
 void SampleDialog::makeFields(QVBoxLayout* layout)
 {
   this->File = new QLabel;
+  this->File->setTextFormat(Qt::PlainText);
   this->File->setObjectName("file");
   this->Number = new QSpinBox;
   this->Number->setObjectName("number");
@@ -139,6 +140,7 @@ void SampleDialog::makeLists(QVBoxLayout* layout)
   connect(this->Stop, &QPushButton::clicked, this, &SampleDialog::stop);
   layout->addLayout(row);
   this->Status = new QLabel;
+  this->Status->setTextFormat(Qt::PlainText);
   this->Status->setObjectName("status");
   this->Status->setWordWrap(true);
   this->Status->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -269,7 +271,7 @@ void SampleDialog::take(DrawnSample drawn)
   const int number = drawn.number;
   if (!drawn.scene)
   {
-    this->say(this->Any ? tr("%1. The views show sample %2.").arg(line).arg(this->Shown) : line);
+    this->say(this->Any ? tr("%1. The views show sample %2.").arg(line, QString::number(this->Shown)) : line);
     return;
   }
   if (!this->Hooks.show(std::move(*drawn.scene)))

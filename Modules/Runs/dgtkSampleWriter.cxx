@@ -96,6 +96,7 @@ void SampleWriter::makeButtons(QVBoxLayout* layout)
   }
   layout->addLayout(row);
   this->Status = new QLabel;
+  this->Status->setTextFormat(Qt::PlainText);
   this->Status->setObjectName("writerStatus");
   this->Status->setWordWrap(true);
   layout->addWidget(this->Status);

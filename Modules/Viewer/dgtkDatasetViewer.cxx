@@ -68,6 +68,33 @@ void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& da
   emit this->opened(text(dataset->folder()));
 }
 
+bool DatasetViewer::isLeft()
+{
+  const bool isReplaced = this->Dataset && this->Dataset->isReplaced();
+  if (isReplaced)
+  {
+    QMetaObject::invokeMethod(this, &DatasetViewer::leaveReplaced, Qt::QueuedConnection); // its asker may need it
+  }
+  return isReplaced || !this->Dataset;
+}
+
+void DatasetViewer::leaveReplaced()
+{
+  if (this->Dataset && this->Dataset->isReplaced())
+  {
+    const QString folder = text(this->Dataset->folder());
+    this->Dataset.reset();
+    this->Frames->setCount(0);
+    this->Pending.clear();
+    this->CloudPending = false;
+    this->refreshBusy();
+    this->Calibration->clear();
+    this->Pages->setCurrentIndex(0);
+    this->enableActions(false);
+    this->openFolder(folder);
+  }
+}
+
 void DatasetViewer::chooseFirstLayers()
 {
   const QString camera = text(this->Dataset->cameras().front());
@@ -137,6 +164,7 @@ void DatasetViewer::showRefusal(const QString& message)
   this->EmptyText->setText(
     tr("<p>%1</p><p>Open the folder that <i>dgtk render</i> wrote.</p>").arg(message.toHtmlEscaped()));
   QMessageBox box(QMessageBox::Warning, tr("DGTk"), message, QMessageBox::Ok, this);
+  box.setTextFormat(Qt::PlainText);
   box.setObjectName("errorBox");
   box.exec();
   emit this->refused(message);

@@ -79,6 +79,9 @@ private:
   void copyValues();
   void showDataset(const std::shared_ptr<const DatasetPictures>& dataset);
   void showRefusal(const QString& message);
+  /// Whether there is no dataset, or another one in its place: then it is left, and that one opened, by and by.
+  bool isLeft();
+  void leaveReplaced();
 
   void chooseFirstLayers();
   void setPaneCount(int count);

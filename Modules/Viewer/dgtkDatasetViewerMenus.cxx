@@ -41,7 +41,7 @@ void DatasetViewer::makeFileMenu()
   connect(this->addAction(menu, "copyValues", tr("&Copy the numbers"), QKeySequence("Ctrl+Shift+C")),
     &QAction::triggered, this, &DatasetViewer::copyValues);
   menu->addSeparator();
-  connect(this->addAction(menu, "close", tr("&Close"), QKeySequence("Ctrl+W")), &QAction::triggered, this,
+  connect(this->addAction(menu, "close", tr("C&lose"), QKeySequence("Ctrl+W")), &QAction::triggered, this,
     &DatasetViewer::close);
   this->Tools->addSeparator();
 }
@@ -100,7 +100,7 @@ void DatasetViewer::makeFramesMenu()
   const auto add = [&](const char* name, const QString& text, const char* keys, const std::function<void()>& act)
   { connect(this->addAction(menu, name, text, QKeySequence(keys), false), &QAction::triggered, this, act); };
   add("nextFrame", tr("&Next"), ".", [this] { this->Frames->step(1); });
-  add("previousFrame", tr("&Previous"), ",", [this] { this->Frames->step(-1); });
+  add("previousFrame", tr("Pre&vious"), ",", [this] { this->Frames->step(-1); });
   add("firstFrame", tr("&First"), "Home", [this] { this->Frames->setIndex(0); });
   add("lastFrame", tr("&Last"), "End", [this] { this->Frames->setIndex(this->Frames->last()); });
 }
@@ -184,7 +184,9 @@ void DatasetViewer::savePicture()
     shown->picture->rows(), shown->picture->columns() * 4, QImage::Format_RGB32);
   if (!path.isEmpty() && !image.save(path, "PNG"))
   {
-    QMessageBox::warning(this, tr("DGTk"), tr("%1 cannot be written.").arg(path));
+    QMessageBox box(QMessageBox::Warning, tr("DGTk"), tr("%1 cannot be written.").arg(path), QMessageBox::Ok, this);
+    box.setTextFormat(Qt::PlainText);
+    box.exec();
   }
 }
 

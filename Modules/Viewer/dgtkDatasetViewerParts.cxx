@@ -97,6 +97,10 @@ void DatasetViewer::connectParts()
   connect(this->Loader, &PictureLoader::cloudReady, this,
     [this](const std::shared_ptr<const PointCloud>& cloud, const QString& error)
     {
+      if (this->isLeft())
+      {
+        return;
+      }
       this->CloudPending = false;
       this->Cloud->setCloud(cloud);
       this->CloudText->setText(!error.isEmpty()        ? error
@@ -175,6 +179,7 @@ QWidget* DatasetViewer::makeCloudSide()
   layout->setSpacing(2);
   this->Cloud = new CloudView(this->CloudSide);
   this->CloudText = new QLabel(this->CloudSide);
+  this->CloudText->setTextFormat(Qt::PlainText);
   this->CloudText->setObjectName("cloudText");
   this->CloudText->setWordWrap(true);
   layout->addWidget(this->Cloud, 1);

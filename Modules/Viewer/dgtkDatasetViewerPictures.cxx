@@ -105,6 +105,10 @@ void DatasetViewer::askOverlays()
 
 void DatasetViewer::receiveOverlays(const std::shared_ptr<const FrameOverlays>& overlays, const QString& error)
 {
+  if (this->isLeft())
+  {
+    return;
+  }
   this->Pending.erase(overlaySlot);
   this->refreshBusy();
   for (PicturePane* pane : this->panes())
@@ -135,6 +139,10 @@ void DatasetViewer::showOverlayProblem(const QString& problem)
 
 void DatasetViewer::receive(int slot, const ShownPointer& shown)
 {
+  if (this->isLeft())
+  {
+    return;
+  }
   if (slot >= detailSlots)
   {
     const std::size_t pane = std::size_t(slot - detailSlots);

@@ -50,7 +50,7 @@ void EditorLog::noteNewWarnings(const SceneDocument& document)
 
 QString EditorLog::withWarnings(const QString& line, std::size_t warnings)
 {
-  return warnings == 0 ? line : tr("%1; warnings in the log: %2").arg(line).arg(warnings);
+  return warnings == 0 ? line : tr("%1; warnings in the log: %2").arg(line, QString::number(warnings));
 }
 
 } // namespace dgtk

@@ -7,6 +7,7 @@
 
 #include <QFile>
 #include <QFileDialog>
+#include <QLabel>
 #include <QMainWindow>
 #include <QMessageBox>
 #include <QPushButton>
@@ -49,9 +50,12 @@ bool SceneFiles::offerToFind()
   QMessageBox box(QMessageBox::Warning, tr("DGTk"), tr("Models that are not there: %1").arg(models.size()),
     QMessageBox::Ok, &this->Window);
   box.setObjectName("missingBox");
+  box.setEscapeButton(QMessageBox::Ok);
+  box.setDefaultButton(QMessageBox::Ok);
   box.setInformativeText(
     tr("%1\n\nGrey boxes stand in their place. The scene can be edited and saved, but not rendered.")
       .arg(listOf(models)));
+  box.findChild<QLabel*>("qt_msgbox_informativelabel")->setTextFormat(Qt::PlainText);
   QPushButton* const find = box.addButton(tr("&Find folder ..."), QMessageBox::ActionRole);
   find->setObjectName("findFolder");
   box.exec();

@@ -29,7 +29,7 @@ void MainWindow::makeItemActions(QMenu* menu)
   };
   menu->addSeparator();
   addMode("move", tr("&Move"), "1", HandleMode::Move);
-  addMode("rotate", tr("&Rotate"), "2", HandleMode::Rotate);
+  addMode("rotate", tr("Rotat&e"), "2", HandleMode::Rotate);
   addMode("scale", tr("&Scale"), "3", HandleMode::Scale);
   QAction* const origin = this->addAction(menu, "handlesAtOrigin", tr("&Handles at the origin"), QKeySequence("O"));
   origin->setCheckable(true);

@@ -75,6 +75,8 @@ void MainWindow::makeDocks()
   connect(
     this->Truth, &TruthView::pointed, this, [this](const QString& line) { this->statusBar()->showMessage(line); });
   connect(this->Truth, &TruthView::layerChosen, values, [values] { values->raise(); });
+  connect(this->Truth, &TruthView::layerChosen, this, &MainWindow::noteReplacedModels);
+  connect(this->Views, &SceneViews::lookedThrough, this, &MainWindow::noteReplacedModels);
   QDockWidget* const time =
     this->addDock(Qt::BottomDockWidgetArea, "timeDock", tr("Time line"), new TimeLine(*this->State, this));
   QDockWidget* const log = this->addDock(Qt::BottomDockWidgetArea, "logDock", tr("Log"), this->Log);
@@ -111,7 +113,7 @@ void MainWindow::makeFileMenu()
   connect(add("import", tr("&Import ..."), QKeySequence("Ctrl+I")), &QAction::triggered, files, &SceneFiles::askImport);
   connect(add("findModels", tr("Find &missing models ..."), {}), &QAction::triggered, files, &SceneFiles::findMissing);
   connect(add("exportPov", tr("Export &POV-Ray ..."), {}), &QAction::triggered, files, &SceneFiles::exportPov);
-  connect(add("exportDataset", tr("E&xport a dataset ..."), {}), &QAction::triggered, this, &MainWindow::exportDataset);
+  connect(add("exportDataset", tr("Expor&t a dataset ..."), {}), &QAction::triggered, this, &MainWindow::exportDataset);
   menu->addSeparator();
   QAction* const leave = menu->addAction(tr("E&xit"));
   leave->setObjectName("exit");
@@ -136,7 +138,7 @@ void MainWindow::makeEditMenu()
   connect(add("copy", tr("&Copy"), QKeySequence::Copy), &QAction::triggered, state, &EditorState::copy);
   connect(add("paste", tr("&Paste"), QKeySequence::Paste), &QAction::triggered, state, &EditorState::paste);
   connect(
-    add("duplicate", tr("D&uplicate"), QKeySequence("Ctrl+D")), &QAction::triggered, state, &EditorState::duplicate);
+    add("duplicate", tr("Dup&licate"), QKeySequence("Ctrl+D")), &QAction::triggered, state, &EditorState::duplicate);
   connect(add("delete", tr("&Delete"), QKeySequence::Delete), &QAction::triggered, state, &EditorState::remove);
   menu->addSeparator();
   connect(

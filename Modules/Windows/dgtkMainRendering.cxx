@@ -69,6 +69,7 @@ RenderDialog& MainWindow::rendering()
   {
     this->Rendering = new RenderDialog(*this->State, this);
     connect(this->Rendering, &RenderDialog::noted, this, &MainWindow::note);
+    connect(this->Rendering, &RenderDialog::started, this, &MainWindow::noteReplacedModels);
     connect(this->Rendering, &RenderDialog::resultAsked, this, &MainWindow::openDataset);
     connect(this->Rendering, &RenderDialog::progressed, this->Run, &RenderStatus::showProgress);
     connect(this->Rendering, &RenderDialog::shown, this, [this] { this->Run->setVisible(this->Rendering->running()); });

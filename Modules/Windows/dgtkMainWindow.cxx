@@ -15,6 +15,7 @@
 #include <QAction>
 #include <QCloseEvent>
 #include <QCoreApplication>
+#include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
@@ -38,6 +39,15 @@ namespace
 /// Actions whose check marks are kept.
 constexpr const char* keptActions[] = { "wireframe", "shaded", "textured", "sceneLights", "grid", "handlesAtOrigin" };
 constexpr int statusTime = 5000; // milliseconds
+
+bool isBehindTab(const QWidget* widget)
+{
+  while (widget != nullptr && qobject_cast<const QDockWidget*>(widget) == nullptr)
+  {
+    widget = widget->parentWidget();
+  }
+  return widget != nullptr && widget->visibleRegion().isEmpty();
+}
 } // namespace
 
 void MainWindow::prepareApplication()
@@ -119,10 +129,20 @@ void MainWindow::refresh()
 
 void MainWindow::note(const QString& line) { this->Log->note(line); }
 
+void MainWindow::noteReplacedModels()
+{
+  for (const std::string& file : this->document().replacedModels())
+  {
+    this->note(tr("Warning: %1 has changed since it was read here. Open the scene again to see it as it is rendered.")
+                 .arg(toText(file)));
+  }
+}
+
 void MainWindow::fail(const QString& message)
 {
   this->note(message);
   QMessageBox box(QMessageBox::Warning, tr("DGTk"), message, QMessageBox::Ok, this);
+  box.setTextFormat(Qt::PlainText);
   box.setObjectName("errorBox");
   box.exec();
 }
@@ -199,6 +219,17 @@ void MainWindow::dropEvent(QDropEvent* event)
         this->openFile(path);
       }
     });
+}
+
+bool MainWindow::focusNextPrevChild(bool next)
+{
+  const QWidget* const before = this->focusWidget();
+  bool moved = QMainWindow::focusNextPrevChild(next);
+  while (moved && this->focusWidget() != before && isBehindTab(this->focusWidget()))
+  {
+    moved = QMainWindow::focusNextPrevChild(next);
+  }
+  return moved;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)

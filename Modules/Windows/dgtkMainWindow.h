@@ -70,6 +70,8 @@ signals:
 
 protected:
   void closeEvent(QCloseEvent* event) override;
+  /// Past docks that lie behind the tabs of others.
+  bool focusNextPrevChild(bool next) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
 
@@ -107,6 +109,7 @@ private:
   void restoreSettings();
   void fail(const QString& message);
   void note(const QString& line);
+  void noteReplacedModels();
 
   EditorState* State;
   BackgroundWork* Work = nullptr;

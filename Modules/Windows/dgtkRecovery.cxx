@@ -43,6 +43,7 @@ void SceneFiles::offerRecovery()
       origin.isEmpty() ? tr("The editor ended without saving a scene that had no name yet, at %1.").arg(time)
                        : tr("The editor ended without saving %1, at %2.").arg(QDir::toNativeSeparators(origin), time),
       QMessageBox::Open | QMessageBox::Discard | QMessageBox::Cancel, &this->Window);
+    box.setTextFormat(Qt::PlainText);
     box.setObjectName("recoverBox");
     box.setInformativeText(tr("Open what was kept of it, or discard it for good. Cancel asks again next time."));
     const int choice = box.exec();

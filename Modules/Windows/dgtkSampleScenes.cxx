@@ -34,6 +34,7 @@ void SceneFiles::offerToSample(const QString& path, const std::string& given)
 {
   QMessageBox box(QMessageBox::Question, tr("DGTk"), tr("%1 has random values.").arg(QFileInfo(path).fileName()),
     QMessageBox::Cancel, &this->Window);
+  box.setTextFormat(Qt::PlainText);
   box.setObjectName("randomBox");
   box.setInformativeText(tr("Samples of it are plain scenes, which the window can show."));
   QPushButton* const sample = box.addButton(tr("&Sample ..."), QMessageBox::AcceptRole);

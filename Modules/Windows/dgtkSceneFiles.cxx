@@ -24,6 +24,7 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QSettings>
 
 #include <memory>
@@ -111,6 +112,11 @@ void SceneFiles::askOpen()
 
 bool SceneFiles::openFile(const QString& path)
 {
+  if (path.contains(QChar::ReplacementCharacter) && !QFileInfo::exists(path))
+  {
+    emit this->State.failed(tr("%1: the name of the file is not UTF-8: rename it").arg(path));
+    return false;
+  }
   if (QFileInfo(path).isDir() || QFileInfo(path).fileName() == "manifest.json")
   {
     emit this->datasetAsked(path);
@@ -268,8 +274,32 @@ bool SceneFiles::saveFile(const QString& path)
 
 bool SceneFiles::save()
 {
-  const QString path = toText(this->State.document().path());
-  return path.isEmpty() ? this->saveAs() : this->saveFile(path);
+  const SceneDocument& document = this->State.document();
+  const QString path = toText(document.path());
+  if (path.isEmpty())
+  {
+    return this->saveAs();
+  }
+  const bool isReplaced = document.isReplaced() && QFileInfo::exists(path);
+  if (!isReplaced && !document.losesComments())
+  {
+    return this->saveFile(path);
+  }
+  const QString name = QFileInfo(path).fileName();
+  QMessageBox box(QMessageBox::Warning, tr("DGTk"),
+    isReplaced ? tr("%1 was changed by another program since it was opened or saved here.").arg(name)
+               : tr("%1 has comments, which the editor does not keep.").arg(name),
+    QMessageBox::Cancel, &this->Window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("overwriteBox");
+  box.setInformativeText(tr("Overwrite it, or save the scene in another file?"));
+  QPushButton* const overwrite = box.addButton(tr("&Overwrite"), QMessageBox::DestructiveRole);
+  overwrite->setObjectName("overwrite");
+  QPushButton* const other = box.addButton(tr("Save &as ..."), QMessageBox::AcceptRole);
+  other->setObjectName("saveAs");
+  box.setDefaultButton(other);
+  box.exec();
+  return box.clickedButton() == overwrite ? this->saveFile(path) : box.clickedButton() == other && this->saveAs();
 }
 
 bool SceneFiles::saveAs()

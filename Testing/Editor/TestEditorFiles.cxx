@@ -302,15 +302,16 @@ void TestEditorFiles::warningsAreNotedOnce()
   auto* log = this->Window->findChild<QPlainTextEdit*>("log");
   const QByteArray crate =
     R"({ "model": ")" + model("crate.ac").toUtf8() + R"(", "materials": { "*": { "texture": "gone.png" } } })";
-  QVERIFY(this->Window->openFile(this->write("scene.json", R"({ "objects": [)" + crate + ", " + crate + "] }")));
+  QVERIFY(this->Window->openFile(this->write("scene %2.json", R"({ "objects": [)" + crate + ", " + crate + "] }")));
   const QString line = "texture 'gone.png': not found";
   QCOMPARE(log->toPlainText().count(line), 1);
   this->select("crate-1");
   this->action("duplicate")->trigger();
   this->action("undo")->trigger();
   QCOMPARE(log->toPlainText().count(line), 1);
-  QVERIFY(this->Window->openFile(this->path("scene.json")));
+  QVERIFY(this->Window->openFile(this->path("scene %2.json")));
   QCOMPARE(log->toPlainText().count(line), 2); // it was read again
+  QVERIFY2(log->toPlainText().contains("Opened scene %2.json: 2 objects"), qPrintable(log->toPlainText()));
 
   log->clear();
   const QByteArray whole = contentsOf(model("column.obj"));

@@ -27,6 +27,7 @@ private slots:
   void filesAreDropped();
   void theImportDialogKnowsAllFormats();
   void savingAsksAboutTheFileThatItWrites();
+  void savingAsksAboutWhatItDestroys();
   void everyFileIsAskedAbout();
   void exportsForPovRay();
   void filesOfTheCommandLineOpen();

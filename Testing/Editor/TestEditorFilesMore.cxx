@@ -124,6 +124,50 @@ void TestEditorFiles::savingAsksAboutTheFileThatItWrites()
   QVERIFY(contentsOf(json) != QByteArray("precious"));
 }
 
+void TestEditorFiles::savingAsksAboutWhatItDestroys()
+{
+  const QByteArray mine = R"({ "objects": [ { "name": "box", "model": "box.obj" } ] } // precious)";
+  this->write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const QString scene = this->write("a<b>b<br>.json", mine);
+  QVERIFY(this->Window->openFile(scene));
+  const auto save = [&](const char* question, const char* button)
+  {
+    QString said;
+    answer<QMessageBox>("overwriteBox",
+      [&](QMessageBox& box)
+      {
+        said = box.text();
+        QCOMPARE(box.textFormat(), Qt::PlainText);
+        button == nullptr ? QTest::keyClick(&box, Qt::Key_Escape) : box.findChild<QPushButton*>(button)->click();
+      });
+    this->action("save")->trigger();
+    QVERIFY2(said.startsWith("a<b>b<br>.json ") && said.contains(question), qPrintable(said));
+  };
+  save("comments", nullptr);
+  QCOMPARE(contentsOf(scene), mine);
+  save("comments", "overwrite");
+  const QByteArray saved = contentsOf(scene);
+  QVERIFY(saved != mine && !saved.contains("precious"));
+  this->action("save")->trigger(); // there is nothing to ask about
+  const QByteArray theirs = R"({ "units": "theirs" })";
+  this->write("a<b>b<br>.json", theirs);
+  save("another program", nullptr);
+  QCOMPARE(contentsOf(scene), theirs);
+  answer<QFileDialog>({}, [&](QFileDialog& dialog) { name(dialog, this->path("mine.json")); });
+  save("another program", "saveAs");
+  QCOMPARE(contentsOf(scene), theirs);
+  QCOMPARE(contentsOf(this->path("mine.json")), saved);
+
+  // A model that has changed is named when numbers are asked for.
+  const auto* log = this->Window->findChild<QPlainTextEdit*>("log");
+  const QString warning = "Warning: " + this->path("box.obj") + " has changed";
+  this->action("show.depth")->trigger();
+  QVERIFY(!log->toPlainText().contains(warning));
+  this->write("box.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+  this->action("show.colour")->trigger();
+  QVERIFY2(log->toPlainText().contains(warning), qPrintable(log->toPlainText()));
+}
+
 void TestEditorFiles::everyFileIsAskedAbout()
 {
   QVERIFY(this->import(model("crate.ac")).isEmpty());
@@ -211,6 +255,10 @@ void TestEditorFiles::anyNameIsShownAsItIs()
   QVERIFY(QFile::copy(model("crate.ac"), crate));
   QVERIFY(this->import(crate).isEmpty());
   QVERIFY2(this->action("undo")->text().contains("R&&D.ac"), qPrintable(this->action("undo")->text()));
+  QString said;
+  expectRefusal(said);
+  QVERIFY(!this->Window->openFile(this->path("s") + QChar(QChar::ReplacementCharacter) + ".json"));
+  QVERIFY2(said.contains("is not UTF-8"), qPrintable(said));
 }
 
 void TestEditorFiles::theLogsCommandIsForAShell()

@@ -2,12 +2,17 @@
 #include "TestEditorMenus.h"
 #include "TestEditorSupport.h"
 
+#include "dgtkDatasetViewer.h"
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
 #include <QAction>
+#include <QDialog>
+#include <QDockWidget>
 #include <QImage>
+#include <QMap>
 #include <QMenu>
+#include <QMenuBar>
 #include <QPointer>
 #include <QStatusBar>
 #include <QTest>
@@ -81,6 +86,78 @@ QString TestEditorMenus::fewObjects() const
     });
   document.saveAs(this->Folder.path("few.json"));
   return this->path("few.json");
+}
+
+/// In both languages, also of the window of datasets.
+void TestEditorMenus::lettersOfMenusDiffer()
+{
+  const auto check = [](const QMainWindow& window)
+  {
+    QList<QWidget*> bars{ window.menuBar() };
+    for (QMenu* const menu : window.findChildren<QMenu*>())
+    {
+      bars << menu;
+    }
+    for (const QWidget* const bar : bars)
+    {
+      QMap<QString, QString> texts;
+      for (const QAction* const action : bar->actions())
+      {
+        const QString text = QString(action->text()).remove("&&");
+        const QString letter = text.mid(text.indexOf('&') + 1, 1).toLower();
+        if (text.contains('&'))
+        {
+          QVERIFY2(!texts.contains(letter), qPrintable(text + " has the letter of " + texts[letter]));
+          texts[letter] = text;
+        }
+      }
+    }
+  };
+  check(*this->Window);
+  check(dgtk::DatasetViewer());
+  const German german;
+  check(dgtk::MainWindow());
+  check(dgtk::DatasetViewer());
+}
+
+/// Of 800 x 600 pixels, in both languages.
+void TestEditorMenus::smallScreensHaveRoom()
+{
+  const QSize room(788, 556);
+  const auto fits = [&](const QWidget& window)
+  {
+    const QSize least = window.minimumSizeHint();
+    QVERIFY2(room.expandedTo(least) == room,
+      qPrintable(window.objectName() + QString(" %1 x %2").arg(least.width()).arg(least.height())));
+  };
+  const auto allFit = [&](dgtk::MainWindow& window)
+  {
+    window.show();
+    untilQuiet();
+    fits(window);
+    window.findChild<QAction*>("correspondence")->trigger();
+    fits(*window.findChild<QDialog*>("matchDialog"));
+  };
+  allFit(*this->Window);
+  const German german;
+  dgtk::MainWindow window;
+  allFit(window);
+}
+
+void TestEditorMenus::tabStaysOnTheScreen()
+{
+  for (const char* const front : { "propertiesDock", "valuesDock" })
+  {
+    this->Window->findChild<QDockWidget*>(front)->raise();
+    untilQuiet();
+    this->Window->findChild<QWidget*>("truthLayer")->setFocus();
+    for (int i = 0; i < 12; ++i)
+    {
+      QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+      QVERIFY2(!QApplication::focusWidget()->parentWidget()->visibleRegion().isEmpty(),
+        qPrintable(QApplication::focusWidget()->objectName()));
+    }
+  }
 }
 
 /// A scene with something to undo and to redo and a selection; what an item would show is not shown yet.

@@ -18,6 +18,9 @@ protected:
 
 private slots:
   void everyMenuItemWorks();
+  void lettersOfMenusDiffer();
+  void smallScreensHaveRoom();
+  void tabStaysOnTheScreen();
 
 private:
   QList<QPointer<QAction>> menuItems() const;

@@ -163,12 +163,16 @@ void TestEditorSamples::whatIsRefusedAndLeftOutIsSaid()
   QVERIFY(dialog->findChild<QTreeWidget*>("values")->topLevelItemCount() > 0);
 
   const QByteArray omitted = QByteArray(never).replace("\"attempts\"", R"("otherwise": "omit", "attempts")");
-  this->opened(this->write("omitted.json", balls(omitted)));
+  this->opened(this->write("omitted %2.json", balls(omitted)));
   this->waitFor("Sample 0: ");
   QVERIFY2(this->status().endsWith(" 0 cameras; 1 left out"), qPrintable(this->status()));
   QVERIFY(notes->toPlainText().startsWith("cameras/c/require: "));
 
   const QByteArray wrong = balls().replace("[1, 6]", "[6, 1]");
+  this->write("omitted %2.json", wrong);
+  this->click("draw");
+  this->waitFor(this->path("omitted %2.json"));
+  QVERIFY2(this->status().endsWith(". The views show sample 0."), qPrintable(this->status()));
   answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
   this->opened(this->write("wrong.json", wrong));
   this->waitFor(this->path("wrong.json"));

@@ -103,6 +103,7 @@ inline void expectRefusal(QString& message)
     [&message](QMessageBox& box)
     {
       message = box.text();
+      QCOMPARE(box.textFormat(), Qt::PlainText); // names are no HTML
       box.accept();
     });
 }

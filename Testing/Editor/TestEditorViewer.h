@@ -40,6 +40,7 @@ private slots:
   void theMouseMovesTheWorld();
   void layeredImagesHaveSurfaces();
   void brokenDatasetsAreRefused();
+  void aReplacedDatasetIsOpenedAgain();
   void theRenderDialogOpensItsResult();
   void germanIsSpokenOfPixels();
   void longNamesAreLegible();

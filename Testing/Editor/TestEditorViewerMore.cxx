@@ -3,6 +3,7 @@
 #include "TestEditorViewer.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkFile.h"
 #include "dgtkLdi.h"
 #include "dgtkViewWidget.h"
 
@@ -15,6 +16,7 @@
 #include <QMessageBox>
 #include <QOpenGLWidget>
 #include <QProcess>
+#include <QSignalSpy>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTimer>
@@ -316,6 +318,33 @@ void TestEditorViewer::layeredImagesHaveSurfaces()
     }
     QVERIFY2(found, qPrintable(text));
   }
+}
+
+/// When the next picture is asked for: nothing of the other one goes with what was read of this one.
+void TestEditorViewer::aReplacedDatasetIsOpenedAgain()
+{
+  const std::string folder = this->Folder.path("replaced");
+  const std::string manifest = folder + "/manifest.json";
+  fs::copy(this->dataset().toStdString(), folder, fs::copy_options::recursive);
+  QMainWindow* const viewer = this->open(QString::fromStdString(folder));
+  QVERIFY(viewer != nullptr);
+  QSignalSpy opened(viewer, SIGNAL(opened(QString)));
+  dgtk::writeFile(manifest, dgtk::readFile(manifest));
+  QTest::keyClick(viewer, Qt::Key_Period);
+  QTRY_COMPARE(opened.count(), 1);
+  QCOMPARE(viewer->findChild<QLabel*>("frameText")->text(), QString("Frame 0 (1 of 3)"));
+  this->waitForPictures(viewer);
+  QTest::keyClick(viewer, Qt::Key_Period);
+  this->waitForPictures(viewer);
+  QCOMPARE(opened.count(), 1);
+
+  fs::remove(manifest); // as a run does that replaces it
+  QString message;
+  expectRefusal(message);
+  QTest::keyClick(viewer, Qt::Key_Home); // what was read already
+  QTRY_VERIFY(!message.isEmpty());
+  QVERIFY(viewer->findChild<QLabel*>("emptyText")->isVisible());
+  triggerAll(viewer);
 }
 
 void TestEditorViewer::brokenDatasetsAreRefused()

@@ -596,7 +596,7 @@
         <translation>Zahlen &amp;kopieren</translation>
     </message>
     <message>
-        <source>&amp;Close</source>
+        <source>C&amp;lose</source>
         <translation>S&amp;chließen</translation>
     </message>
     <message>
@@ -633,7 +633,7 @@
     </message>
     <message>
         <source>All &amp;layers of one camera</source>
-        <translation>Alle E&amp;benen einer Kamera</translation>
+        <translation>A&amp;lle Ebenen einer Kamera</translation>
     </message>
     <message>
         <source>One layer of all &amp;cameras</source>
@@ -656,7 +656,7 @@
         <translation>&amp;Nächstes</translation>
     </message>
     <message>
-        <source>&amp;Previous</source>
+        <source>Pre&amp;vious</source>
         <translation>&amp;Voriges</translation>
     </message>
     <message>
@@ -1049,12 +1049,12 @@
         <translation>&amp;Verschieben</translation>
     </message>
     <message>
-        <source>&amp;Rotate</source>
+        <source>Rotat&amp;e</source>
         <translation>&amp;Drehen</translation>
     </message>
     <message>
         <source>&amp;Scale</source>
-        <translation>&amp;Skalieren</translation>
+        <translation>Skal&amp;ieren</translation>
     </message>
     <message>
         <source>Re&amp;name</source>
@@ -1070,7 +1070,7 @@
     </message>
     <message>
         <source>Pr&amp;operties</source>
-        <translation>&amp;Eigenschaften</translation>
+        <translation>Eigenscha&amp;ften</translation>
     </message>
     <message>
         <source>Scene</source>
@@ -1153,7 +1153,7 @@
         <translation>&amp;Einfügen</translation>
     </message>
     <message>
-        <source>D&amp;uplicate</source>
+        <source>Dup&amp;licate</source>
         <translation>D&amp;uplizieren</translation>
     </message>
     <message>
@@ -1286,7 +1286,7 @@
     </message>
     <message>
         <source>Light of the s&amp;cene</source>
-        <translation>Licht der S&amp;zene</translation>
+        <translation>&amp;Licht der Szene</translation>
     </message>
     <message>
         <source>&lt;p&gt;Click: select; with Ctrl: add. Drag what is selected: move it in the view&apos;s plane. Drag its handles: move, rotate or scale it (1, 2, 3).&lt;br&gt;During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.&lt;br&gt;Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.&lt;br&gt;Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.&lt;/p&gt;&lt;p&gt;R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.&lt;br&gt;Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.&lt;br&gt;In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key.&lt;/p&gt;</source>
@@ -1357,7 +1357,7 @@
         <translation>Hier &amp;bleiben</translation>
     </message>
     <message>
-        <source>E&amp;xport a dataset ...</source>
+        <source>Expor&amp;t a dataset ...</source>
         <translation>Datensatz e&amp;xportieren ...</translation>
     </message>
     <message>
@@ -1379,6 +1379,10 @@
     <message>
         <source>Sampling into %1 has ended: %2</source>
         <translation>Das Ziehen nach %1 ist zu Ende: %2</translation>
+    </message>
+    <message>
+        <source>Warning: %1 has changed since it was read here. Open the scene again to see it as it is rendered.</source>
+        <translation>Warnung: %1 hat sich geändert, seit es hier gelesen wurde. Öffnen Sie die Szene noch einmal, um sie so zu sehen, wie sie berechnet wird.</translation>
     </message>
 </context>
 <context>
@@ -2506,6 +2510,30 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Opened %1: %2</source>
         <translation>%1 geöffnet: %2</translation>
+    </message>
+    <message>
+        <source>%1: the name of the file is not UTF-8: rename it</source>
+        <translation>%1: der Name der Datei ist nicht UTF-8: benennen Sie sie um</translation>
+    </message>
+    <message>
+        <source>%1 was changed by another program since it was opened or saved here.</source>
+        <translation>%1 wurde von einem anderen Programm geändert, seit es hier geöffnet oder gespeichert wurde.</translation>
+    </message>
+    <message>
+        <source>%1 has comments, which the editor does not keep.</source>
+        <translation>%1 hat Kommentare, die der Editor nicht behält.</translation>
+    </message>
+    <message>
+        <source>Overwrite it, or save the scene in another file?</source>
+        <translation>Überschreiben, oder die Szene in einer anderen Datei speichern?</translation>
+    </message>
+    <message>
+        <source>&amp;Overwrite</source>
+        <translation>&amp;Überschreiben</translation>
+    </message>
+    <message>
+        <source>Save &amp;as ...</source>
+        <translation>Speichern &amp;unter ...</translation>
     </message>
 </context>
 <context>

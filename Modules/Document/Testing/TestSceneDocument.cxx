@@ -2,6 +2,7 @@
 #include "dgtkSceneDocument.h"
 
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkMissingFiles.h"
 #include "dgtkScenePlaces.h"
 #include "dgtkTestSupport.h"
@@ -386,6 +387,87 @@ TEST(SceneDocument, ADragThatChangesNothingIsNoStep)
     "Move", child, [&](SceneDescription& s) { s.objects[2].visible = true; }, "drag");
   document.finishMerging();
   EXPECT_EQ(document.undoText(), "Parent");
+}
+
+TEST(SceneDocument, WhatOthersWriteIntoItsFileIsNoticed)
+{
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("scene.json");
+  const auto writeFog = [&](const char* density)
+  { writeFile(path, R"({"fog": {"density": )" + std::string(density) + "}}"); };
+  writeFog("0.25");
+  SceneDocument document;
+  EXPECT_FALSE(document.isReplaced()) << "it has no file";
+  document.open(path);
+  EXPECT_FALSE(document.isReplaced());
+  writeFog("0.25");
+  EXPECT_FALSE(document.isReplaced()) << "the same bytes";
+  writeFog("0.75");
+  EXPECT_TRUE(document.isReplaced());
+  document.saveAs(path);
+  EXPECT_FALSE(document.isReplaced());
+  std::filesystem::remove(path);
+  EXPECT_TRUE(document.isReplaced()) << "it has gone";
+  writeFog("0.5");
+  document.recover(*SceneDocument::read(path), path);
+  EXPECT_FALSE(document.isReplaced());
+  writeFog("0.75");
+  EXPECT_TRUE(document.isReplaced());
+  document.clear();
+  EXPECT_FALSE(document.isReplaced());
+}
+
+TEST(SceneDocument, ModelsThatHaveChangedSinceTheyWereReadAreNamed)
+{
+  using testing::ElementsAre;
+  using testing::IsEmpty;
+  const test::TemporaryFolder folder;
+  const auto writeModel = [&](const char* name, const char* side)
+  { writeFile(folder.path(name), "v 0 0 0\nv " + std::string(side) + " 0 0\nv 0 1 0\nf 1 2 3\n"); };
+  writeModel("a.obj", "1");
+  writeModel("b.obj", "1");
+  writeFile(
+    folder.path("scene.json"), R"({"objects": [{"name": "a", "model": "a.obj"}, {"name": "c", "model": "gone.obj"}]})");
+  SceneDocument document;
+  document.open(folder.path("scene.json"));
+  document.addModel(folder.path("b.obj"));
+  EXPECT_THAT(document.replacedModels(), IsEmpty());
+  writeModel("a.obj", "22");
+  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj")));
+  writeModel("b.obj", "22");
+  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj"), folder.path("b.obj")));
+  document.undo();
+  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj"))) << "of the scene as it is";
+  document.open(folder.path("scene.json"));
+  EXPECT_THAT(document.replacedModels(), IsEmpty()) << "read again";
+  std::filesystem::remove(folder.path("a.obj"));
+  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj")));
+  document.clear();
+  writeModel("a.obj", "3");
+  document.addModel(folder.path("a.obj"));
+  EXPECT_THAT(document.replacedModels(), IsEmpty());
+}
+
+TEST(SceneDocument, CommentsThatSavingRemovesAreKnown)
+{
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("scene.json");
+  for (const auto& [text, has] : std::vector<std::pair<const char*, bool>>{ { R"({"units": "m"})", false },
+         { R"({"units": "km//h"})", false }, { R"({"units": "a\"//b"})", false }, { R"({"units": "a\\"} // b)", true },
+         { R"({"units": /* of length */ "m"})", true } })
+  {
+    writeFile(path, text);
+    SceneDocument document;
+    document.open(path);
+    EXPECT_EQ(document.losesComments(), has) << text;
+    document.saveAs(path);
+    EXPECT_FALSE(document.losesComments()) << text;
+  }
+  SceneDocument document;
+  EXPECT_FALSE(document.losesComments());
+  document.saveAs(folder.path("scene.scene"));
+  writeFile(folder.path("scene.scene"), "Model /a.ac\n");
+  EXPECT_FALSE(document.losesComments()) << "not JSON";
 }
 
 TEST(SceneDocument, AThousandCopiesShareOneModel)

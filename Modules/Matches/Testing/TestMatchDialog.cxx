@@ -160,7 +160,7 @@ TEST_F(MatchDialogTable, PairsAreOfBothViews)
 TEST_F(MatchDialogTable, ARowIsOfTheViewsThatItNames)
 {
   ASSERT_TRUE(this->Dialog->openPairs(this->list("# from left@2 64x48\n# to right@1 64x48\n31.25 24.5 30 20 1 1\n"
-                                                 "# from gone@1 64x48\n# to right@0 64x48\n10 11 12 13 1 1\n"
+                                                 "# from gone%3@1 64x48\n# to right@0 64x48\n10 11 12 13 1 1\n"
                                                  "# from left@0 64x48\n# to right@0 320x240\n10 11 12 13 1 1\n"
                                                  "# from left@9 64x48\n# to right@0 64x48\n10 11 12 13 1 1\n")));
   ASSERT_EQ(this->table().pairs().size(), 4u);
@@ -169,7 +169,7 @@ TEST_F(MatchDialogTable, ARowIsOfTheViewsThatItNames)
   this->waitForMatch();
   EXPECT_EQ(this->text("match.from"), "left, frame 2:  31.25, 24.5");
   EXPECT_EQ(this->part<QSpinBox>("frame.1")->value(), 1);
-  const char* const missing[] = { "gone, frame 1, with 64 x 48", "right, frame 0, with 320 x 240",
+  const char* const missing[] = { "gone%3, frame 1, with 64 x 48", "right, frame 0, with 320 x 240",
     "left, frame 9, with 64 x 48" };
   for (int row = 1; row < 4; ++row)
   {

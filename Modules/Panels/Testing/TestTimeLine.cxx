@@ -99,7 +99,7 @@ TEST(TimeLineRows, HaveTheirPlaces)
   // The walk of 11 poses at 10 a second lasts 27.5 frames of 25 a second: up to 37.5.
   EXPECT_EQ(shown.frames(0), 67);
   EXPECT_EQ(shown.frames(50), 80) << "30 behind the current one";
-  EXPECT_EQ(shown.frames(largestFrame), largestFrame);
+  EXPECT_EQ(shown.frames(largestFrame), largestFrame + 1) << "the last one, too";
   EXPECT_EQ(TimeLineRows().frames(0), 60);
   shown.rows[0].bar->length = std::numeric_limits<double>::infinity();
   EXPECT_EQ(shown.frames(0), 60);

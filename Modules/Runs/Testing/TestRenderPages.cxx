@@ -10,6 +10,7 @@
 #include <QCheckBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSpinBox>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,38 @@ TEST_F(RenderPages, MattesOfTheSelectionAreNamesWithCommas)
   const RenderDialog dialog(state, nullptr);
   state.select({ { SceneItem::Kind::Object, 0 }, { SceneItem::Kind::Object, 1 } });
   EXPECT_EQ(dialog.findChild<QLineEdit*>("matte")->text(), "a\\,b,c");
+}
+
+// What is shown is rendered, not what another program has written into its file.
+TEST_F(RenderPages, TheSceneIsRenderedAsItIsShown)
+{
+  const QByteArray program = qgetenv("DGTK");
+  qputenv("DGTK", "/bin/true");
+  const auto sceneWith = [](const char* eye)
+  { return R"({"cameras": [{"name": "a", "eye": [)" + std::string(eye) + R"(], "lookAt": [0, 0, 0]}]})"; };
+  EditorState state(nullptr);
+  this->open(state, sceneWith("0, 0, 5"));
+  const auto rendered = [&](const char* folder)
+  {
+    RenderDialog dialog(state, nullptr);
+    QString scene;
+    int starts = 0;
+    QObject::connect(&dialog, &RenderDialog::noted, [&](const QString& line) { scene = line.section(' ', 2, 2); });
+    QObject::connect(&dialog, &RenderDialog::started, [&] { ++starts; });
+    dialog.findChild<QLineEdit*>("folder")->setText(QString::fromStdString(this->Folder.path(folder)));
+    dialog.findChild<QPushButton*>("start")->click();
+    EXPECT_EQ(starts, 1);
+    return scene.toStdString();
+  };
+  const std::string own = this->Folder.path("scene.json");
+  EXPECT_EQ(rendered("first"), own);
+  writeFile(own, sceneWith("0, 3, 7"));
+  const std::string copy = rendered("second");
+  EXPECT_NE(copy, own);
+  EXPECT_EQ(readScene(copy).cameras.front().eye.value, Eigen::Vector3d(0, 0, 5));
+  state.document().open(own);
+  EXPECT_EQ(rendered("third"), own);
+  qputenv("DGTK", program);
 }
 
 // K of 40 x 30 pixels is scaled to the size of all images, as a run scales it.

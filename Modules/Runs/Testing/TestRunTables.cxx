@@ -326,7 +326,8 @@ TEST_F(RunTables, OptionsAreWordsOfTheCommandLine)
   auto* const pairs = options.findChild<QLineEdit*>("pairs");
   auto* const depth = options.findChild<QLineEdit*>("depth_format");
   auto* const step = options.findChild<QSpinBox*>("points_step");
-  ASSERT_TRUE(samples && filter && shadows && pairs && depth && step);
+  auto* const classes = options.findChild<QLineEdit*>("classes");
+  ASSERT_TRUE(samples && filter && shadows && pairs && depth && step && classes);
   EXPECT_EQ(samples->minimum(), 1);
   EXPECT_EQ(samples->maximum(), 16);
   EXPECT_EQ(samples->value(), 1);
@@ -347,6 +348,9 @@ TEST_F(RunTables, OptionsAreWordsOfTheCommandLine)
   const QStringList all{ "--samples", "4", "--filter", "mitchell", "--points-step", "2", "--pov-shadows",
     "--depth-format", "npy,exr" };
   expectWords(all, "one of each kind");
+  classes->setText("/my classes.json");
+  expectWords(all + QStringList{ "--classes", "/my classes.json" }, "a file");
+  classes->clear();
   pairs->setText(" ");
   expectWords(all, "what is empty is not said");
   // Options of other layers are left out.

@@ -87,7 +87,7 @@ QString fileText(const std::string& path)
 
 QString cameraText(const DatasetPictures& dataset, const std::string& camera, int frame)
 {
-  QString lines = Words::tr("%1, frame %2").arg(QString::fromStdString(camera)).arg(frame) + '\n';
+  QString lines = Words::tr("%1, frame %2").arg(QString::fromStdString(camera), QString::number(frame)) + '\n';
   const CameraRecord* const record = dataset.camera(camera, frame);
   lines += record ? recordText(*record) : Words::tr("cameras.json does not have this camera at this frame.") + '\n';
   const std::string path = dataset.document(DatasetDocument::Calibration, camera, frame);

@@ -3,6 +3,7 @@
 
 #include "dgtkCryptomatte.h"
 #include "dgtkError.h"
+#include "dgtkFolderContents.h"
 #include "dgtkJournal.h"
 #include "dgtkLayerReader.h"
 #include "dgtkText.h"
@@ -73,6 +74,27 @@ const std::vector<std::string>& partsOf(const LayerSpec& layer)
   return layer.meaning == Meaning::Surfaces ? layered : whole;
 }
 
+std::string folderOf(const std::string& given)
+{
+  const fs::path path(given);
+  const std::string folder = path.filename() == manifestName ? path.parent_path().string() : given;
+  return folder.empty() ? "." : folder;
+}
+
+std::string manifestOf(const std::string& folder) { return (fs::path(folder) / manifestName).string(); }
+
+bool isRendered(const std::string& folder)
+{
+  try
+  {
+    return folderContents(folder, {}) == FolderContents::Running;
+  }
+  catch (const MachineError&)
+  {
+    return false;
+  }
+}
+
 template <typename Read>
 void attempt(std::vector<std::string>& warnings, const Read& read)
 {
@@ -88,9 +110,10 @@ void attempt(std::vector<std::string>& warnings, const Read& read)
 } // namespace
 
 DatasetPictures::DatasetPictures(const std::string& folder)
-  : Folder(fs::path(folder).filename() == manifestName ? fs::path(folder).parent_path().string() : folder)
+  : Folder(folderOf(folder))
+  , Age(manifestOf(this->Folder))
 {
-  const fs::path root = this->Folder = this->Folder.empty() ? "." : this->Folder;
+  const fs::path root = this->Folder;
   std::error_code failed;
   if (!fs::is_directory(root, failed))
   {
@@ -98,7 +121,8 @@ DatasetPictures::DatasetPictures(const std::string& folder)
   }
   if (!fs::exists(root / manifestName, failed))
   {
-    throw InputError(this->Folder, fs::exists(root / journalName, failed)
+    throw InputError(this->Folder, isRendered(this->Folder) ? "is being rendered: open it when that is done"
+                                   : fs::exists(root / journalName, failed)
                                      ? "the dataset is not finished: render it again, to its end"
                                      : "is not the folder of a dataset: it has no manifest.json");
   }
@@ -110,6 +134,8 @@ DatasetPictures::DatasetPictures(const std::string& folder)
     throw InputError(this->Folder, "the dataset has no pictures to look at");
   }
 }
+
+bool DatasetPictures::isReplaced() const { return !(FileAge(manifestOf(this->Folder)) == this->Age); }
 
 void DatasetPictures::readDocuments()
 {

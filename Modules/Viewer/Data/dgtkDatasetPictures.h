@@ -5,6 +5,7 @@
 #include "dgtkViewerModule.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkHash.h"
 #include "dgtkSceneDescription.h"
 
 #include <map>
@@ -58,6 +59,8 @@ public:
   explicit DatasetPictures(const std::string& folder);
 
   const std::string& folder() const { return this->Folder; }
+  /// Whether another dataset stands there by now, or a run that replaces it: nothing of it goes with what was read.
+  bool isReplaced() const;
   const Manifest& manifest() const { return this->TheManifest; }
   /// Documents that cannot be used, a line each; pictures can be seen without them.
   const std::vector<std::string>& warnings() const { return this->Warnings; }
@@ -101,6 +104,7 @@ private:
   void sortLayers(std::map<std::string, PictureLayer>& found);
 
   std::string Folder;
+  FileAge Age; ///< of the manifest, before anything was read
   Manifest TheManifest;
   std::vector<std::string> Warnings;
   std::vector<std::string> Cameras;

@@ -2,6 +2,7 @@
 #include "dgtkDatasetPictures.h"
 
 #include "dgtkError.h"
+#include "dgtkJournal.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkPictureOverlay.h"
 #include "dgtkPictureValues.h"
@@ -79,6 +80,10 @@ TEST(DatasetPictures, UnusableFoldersAreRefusedInALine)
   EXPECT_THAT(refusal(folder.path()), HasSubstr("it has no manifest.json"));
   std::ofstream(folder.path(".dgtk-journal")) << "DGTk journal 1 x\n";
   EXPECT_THAT(refusal(folder.path()), HasSubstr("not finished: render it again"));
+  const test::TemporaryFolder busy;
+  Journal journal(busy.path(), "request", JournalStart::Fresh);
+  journal.plan({ "left/color/000000.png" });
+  EXPECT_THAT(refusal(busy.path()), HasSubstr("is being rendered: open it when that is done"));
   SmallDataset files;
   files.finish();
   EXPECT_THAT(refusal(files.path()), HasSubstr("has no pictures to look at"));
@@ -88,6 +93,22 @@ TEST(DatasetPictures, UnusableFoldersAreRefusedInALine)
     std::ofstream(files.path("manifest.json")) << whole.substr(0, length);
     EXPECT_THAT(refusal(files.path()), HasSubstr("manifest.json")) << length;
   }
+}
+
+TEST(DatasetPictures, AnotherDatasetInTheirFolderIsNoticed)
+{
+  SmallDataset files;
+  files.add("left", "depth", 0, "", "npy", depth, ramp);
+  files.finish();
+  const DatasetPictures dataset(files.path());
+  EXPECT_FALSE(dataset.isReplaced());
+  files.add("left", "depth", 1, "", "npy", depth, ramp);
+  files.finish();
+  EXPECT_TRUE(dataset.isReplaced());
+  const DatasetPictures now(files.path());
+  EXPECT_FALSE(now.isReplaced());
+  std::filesystem::remove(files.path("manifest.json"));
+  EXPECT_TRUE(now.isReplaced()) << "it is being replaced";
 }
 
 TEST(DatasetPictures, DocumentsAreNotNeededForPictures)

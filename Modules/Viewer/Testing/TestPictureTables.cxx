@@ -266,5 +266,6 @@ t
    -2
     4
 )");
+  EXPECT_EQ(cameraText(DatasetPictures(files.path()), "a%2", 7).section('\n', 0, 0).toStdString(), "a%2, frame 7");
 }
 } // namespace
