@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 
 namespace dgtk::app
 {
@@ -58,6 +59,7 @@ PovResult sceneToPov(const std::string& from, const std::string& to, const Argum
   PovOptions options;
   options.flatIds = arguments.has("--flat-ids");
   options.shadows = arguments.has("--shadows");
+  options.inputs = stage->inputFiles();
   return exportPov(*stage->at(frame), stage->view(camera, frame), to, options);
 }
 
@@ -90,7 +92,16 @@ int runConvert(const Arguments& arguments)
   requireNoFileOfDataset(to);
   if (!pov)
   {
-    writeScene(readScene(from), to);
+    const SceneDescription scene = readScene(from);
+    for (const std::string& file : { from, scene.resolve(scene.classFile) })
+    {
+      std::error_code code; // where one is not there
+      if (std::filesystem::equivalent(to, file, code))
+      {
+        throw UsageError(to + ": is one of the files that are read for it; name another file");
+      }
+    }
+    writeScene(scene, to);
     return 0;
   }
   const PovResult result = isScene(from) ? sceneToPov(from, to, arguments) : modelToPov(from, to);

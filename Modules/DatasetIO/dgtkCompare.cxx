@@ -224,6 +224,15 @@ std::map<std::string, std::string> layersOf(
       throw UsageError("a tolerance for " + quoted(layer) + ": " + folder + " has no such layer (it has " +
                        joined({ known.begin(), known.end() }) + ')');
     }
+    const auto isImage = [files = Folder(folder), &name = layer](const DatasetFile& file)
+    {
+      return file.layer == name && isLayerFile(file.path) &&
+             !(files.look(file.path) == EntryKind::File && isDeepExr(files.pathOf(file.path)));
+    };
+    if (std::none_of(manifest.files.begin(), manifest.files.end(), isImage))
+    {
+      throw UsageError("a tolerance for " + layer + ": its files are no images");
+    }
     const auto names = [&name = layer](const LayerRecord& record)
     { return record.spec.name == name && (record.spec.unit == "id" || record.spec.unit == "class"); };
     if (tolerance.value > 0 && std::any_of(manifest.layers.begin(), manifest.layers.end(), names))

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace dgtk
@@ -219,13 +220,38 @@ std::vector<std::string> povAntialias(int points)
 
 namespace
 {
+std::vector<std::string> inputsOf(const SceneState& state, const PovOptions& options)
+{
+  std::vector<std::string> inputs = options.inputs;
+  std::set<const Model*> known;
+  for (const Instance& instance : state.instances)
+  {
+    const Model& model = *instance.model;
+    if (known.insert(&model).second)
+    {
+      inputs.push_back(model.path);
+      inputs.insert(inputs.end(), model.companions.begin(), model.companions.end());
+      for (const Texture& texture : model.textures)
+      {
+        inputs.push_back(texture.path);
+      }
+    }
+  }
+  return inputs;
+}
+
 PovResult writeScene(
   const SceneState& state, const View& view, const std::string& path, const PovSurfaceOptions& options)
 {
   checkName(path);
   checkCount(state, path);
+  const std::vector<std::string> inputs = inputsOf(state, options);
+  if (isOneOf(path, inputs))
+  {
+    throw UsageError(path + ": is one of the files that are read for it; name another file");
+  }
   PovResult result;
-  PovImagesBeside images(path);
+  PovImagesBeside images(path, inputs);
   const PovLightContext context = contextOf(state, view, options);
   const std::string begin = firstLines(state, context, {}, "FILE") + '\n' + head(state, context, {}, result.warnings);
   PovText text(path);

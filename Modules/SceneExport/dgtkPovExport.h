@@ -45,6 +45,8 @@ struct PovOptions
   std::optional<PovLens> lens;    ///< focal blur
   int antialias = 1;              ///< points a pixel and axis in the options of the second line, 1 to 9
   std::optional<double> ownScale; ///< how much larger the scene is written; none: see PovResult::scale
+  /// Files that exportPov() may not overwrite, besides those of the models: those of Stage::inputFiles().
+  std::vector<std::string> inputs;
 };
 
 /// What was written.
@@ -60,7 +62,8 @@ struct PovResult
 /// Writes a state of a scene, seen by a camera, for POV-Ray 3.7 (Documentation/Formats/pov.md). Coordinates are the
 /// world's, times PovResult::scale. Each mesh is declared once, however many instances have it. Textures that POV-Ray
 /// would read otherwise are written beside the scene as <stem>_<number>.ppm, those with missing texels with a mask
-/// .pgm. All files appear when they are whole, the scene last. Throws UsageError for a camera that is not linear,
+/// .pgm; a number under which an input stands is left out. All files appear when they are whole, the scene last. Throws
+/// UsageError for a camera that is not linear and, before anything is written, for a scene in place of an input,
 /// InputError for a name that does not end in .pov and for more objects than 24 bits count, MachineError for what
 /// cannot be written.
 DGTKSCENEEXPORT_EXPORT PovResult exportPov(

@@ -29,11 +29,22 @@ bool isPlainPng(const std::string& path)
          (header[25] == 0 || header[25] == 2 || header[25] == 3);
 }
 
+std::string colorEnd(int number) { return '_' + std::to_string(number) + ".ppm"; }
+std::string maskEnd(int number) { return '_' + std::to_string(number) + "_mask.pgm"; }
+
 std::string pnmHeader(const char* kind, const Image& image)
 {
   return std::string(kind) + '\n' + std::to_string(image.width) + ' ' + std::to_string(image.height) + "\n255\n";
 }
 } // namespace
+
+bool isOneOf(const std::string& path, const std::vector<std::string>& files)
+{
+  std::error_code code; // where one is not there
+  return std::filesystem::exists(path, code) &&
+         std::any_of(files.begin(), files.end(),
+           [&](const std::string& file) { return std::filesystem::equivalent(path, file, code); });
+}
 
 std::string povPpm(const Image& image, const Eigen::Vector3d& tint, bool cutOut)
 {
@@ -73,7 +84,8 @@ std::string povPlainName(std::string name)
   return name;
 }
 
-PovImagesBeside::PovImagesBeside(const std::string& scene)
+PovImagesBeside::PovImagesBeside(const std::string& scene, std::vector<std::string> inputs)
+  : Inputs(std::move(inputs))
 {
   const std::filesystem::path path(scene);
   this->Folder = path.parent_path().string();
@@ -96,17 +108,30 @@ std::string PovImagesBeside::own(const Texture& texture) const
 
 int PovImagesBeside::number(const Image& image, const Eigen::Vector3d& tint, bool cutOut)
 {
-  const int next = static_cast<int>(this->Numbers.size());
-  return this->Numbers.try_emplace({ &image, tint.x(), tint.y(), tint.z(), cutOut }, next).first->second;
+  const auto [entry, isNew] = this->Numbers.try_emplace({ &image, tint.x(), tint.y(), tint.z(), cutOut }, 0);
+  if (isNew)
+  {
+    while (isOneOf(this->pathOf(colorEnd(this->Next)), this->Inputs) ||
+           isOneOf(this->pathOf(maskEnd(this->Next)), this->Inputs))
+    {
+      ++this->Next;
+    }
+    entry->second = this->Next++;
+  }
+  return entry->second;
+}
+
+std::string PovImagesBeside::pathOf(const std::string& end) const
+{
+  return (std::filesystem::path(this->Folder) / (this->Stem + end)).string();
 }
 
 std::string PovImagesBeside::write(const std::string& end, const std::string& contents)
 {
-  std::string name = this->Stem + end;
-  const std::string path = (std::filesystem::path(this->Folder) / name).string();
+  const std::string path = this->pathOf(end);
   writeFile(path, contents);
   this->Files.push_back(path);
-  return name;
+  return this->Stem + end;
 }
 
 std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d& tint, bool cutOut)
@@ -117,7 +142,7 @@ std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d
   {
     return "png \"" + relative + '"';
   }
-  const std::string end = '_' + std::to_string(this->number(image, tint, cutOut)) + ".ppm";
+  const std::string end = colorEnd(this->number(image, tint, cutOut));
   std::string& reference = this->Written[end];
   if (reference.empty())
   {
@@ -129,7 +154,7 @@ std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d
 std::string PovImagesBeside::mask(const Texture& texture)
 {
   const Image& image = *texture.image;
-  const std::string end = '_' + std::to_string(this->number(image, Eigen::Vector3d(1, 1, 1), true)) + "_mask.pgm";
+  const std::string end = maskEnd(this->number(image, Eigen::Vector3d(1, 1, 1), true));
   std::string& reference = this->Written[end];
   if (reference.empty())
   {

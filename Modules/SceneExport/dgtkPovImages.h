@@ -29,8 +29,8 @@ public:
 class PovImagesBeside final : public PovImages
 {
 public:
-  /// `scene` is the path of the .pov file.
-  explicit PovImagesBeside(const std::string& scene);
+  /// `scene` is the path of the .pov file. No picture is written in place of one of `inputs`.
+  PovImagesBeside(const std::string& scene, std::vector<std::string> inputs);
 
   std::string color(const Texture& texture, const Eigen::Vector3d& tint, bool cutOut) override;
   std::string mask(const Texture& texture) override;
@@ -38,16 +38,21 @@ public:
 
 private:
   std::string own(const Texture& texture) const;
+  std::string pathOf(const std::string& end) const;
   std::string write(const std::string& end, const std::string& contents);
   int number(const Image& image, const Eigen::Vector3d& tint, bool cutOut);
 
   std::string Folder;
   std::string Stem;
+  std::vector<std::string> Inputs;
   std::map<std::tuple<const Image*, double, double, double, bool>, int> Numbers;
+  int Next = 0;
   std::map<std::string, std::string> Written; ///< name -> reference
   std::vector<std::string> Files;
 };
 
+/// Whether a path leads to one of these files, which need not exist.
+bool isOneOf(const std::string& path, const std::vector<std::string>& files);
 /// Contents of a .ppm with the colours of a picture times `tint`, holes filled as in `withoutHoles()` if it is cut out.
 std::string povPpm(const Image& image, const Eigen::Vector3d& tint, bool cutOut);
 /// Contents of a .pgm: 255 where a texel is, 0 where it is missing.

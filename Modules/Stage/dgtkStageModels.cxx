@@ -21,13 +21,17 @@ namespace fs = std::filesystem;
 
 namespace
 {
+bool isFileOrStem(const fs::path& path, const std::string& name)
+{
+  return name == path.filename() || name == path.stem();
+}
+
 /// A texture is named by its whole name, its file name or its stem.
 bool isCalled(const Texture& texture, const std::string& name)
 {
   std::string written = texture.name;
   std::replace(written.begin(), written.end(), '\\', '/');
-  const fs::path path(written);
-  return name == texture.name || name == written || name == path.filename() || name == path.stem();
+  return name == texture.name || name == written || isFileOrStem(written, name);
 }
 
 std::string namesOf(const std::vector<Texture>& textures)
@@ -351,6 +355,11 @@ void StageModels::applySkin(const ObjectDescription& object, const Model& model,
   const auto begin = model.textures.begin();
   auto found =
     std::find_if(begin, model.textures.end(), [&](const Texture& texture) { return isCalled(texture, object.skin); });
+  if (found == model.textures.end()) // a name in the model may have another extension, or none behind a dot
+  {
+    found = std::find_if(begin, model.textures.end(),
+      [&](const Texture& texture) { return !model.holds(texture) && isFileOrStem(texture.path, object.skin); });
+  }
   if (found == model.textures.end() && object.skin.size() <= 6 &&
       object.skin.find_first_not_of("0123456789") == std::string::npos)
   {

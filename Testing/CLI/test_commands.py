@@ -337,10 +337,10 @@ class Documents(Case):
                                 (("--from", "a@3", "--to", "b", *points), "--from: frame: expected an integer from 0 to 2, found '3'"),
                                 (("--from", "a", "--to", "b@-1", *points), "--to: frame: expected an integer from 0 to 2, found '-1'"),
                                 (("--from", "a", "--to", "b", *points, "--size", "1048577x20"),
-                                 "--size width: expected an integer from 1 to 1048576, found '1048577'"),
-                                (("--from", "a", "--to", "b", *points, "--size", "20x10"),
-                                 "point (20.5, 10.5) is outside the image of camera 'a' (expected 0 to 20, 0 to 10)")):
+                                 "--size width: expected an integer from 1 to 1048576, found '1048577'")):
             self.assertEqual(self.refused(*words, *arguments, status=2), "dgtk: " + says)
+        self.assertEqual(self.refused(*words, "--from", "a", "--to", "b", *points, "--size", "20x10", status=3),
+                         f"dgtk: {self.points}:1: point (20.5, 10.5) is outside the image of camera 'a' (expected 0 to 20, 0 to 10)")
         one = self.write("one.txt", "1 1\n")
         wide = self.dgtk(*words, "--from", "a", "--to", "b", "--points", one, "--size", "1048576x2").stdout
         self.assertIn("# from a@0 1048576x2\n", wide)

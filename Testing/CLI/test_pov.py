@@ -162,6 +162,21 @@ class Pov(Case):
         self.assertGreater(len(digests(self.path("one"))), 2)
         self.assert_same_files(self.path("one"), self.path("two"))
 
+    def test_what_is_read_stays(self):
+        self.write("ball.pov", "mesh { triangle { <0, 0, 0>, <1, 0, 0>, <0, 1, 0> } }")
+        scene = {"objects": [{"model": "ball.pov", "class": "ball"}], "cameras": [{"eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}
+        for name in ("json", "pov"):
+            self.write(f"classes.{name}", '{"ball": 1}')
+            self.write(f"{name}.json", json.dumps({**scene, "classes": f"classes.{name}"}))
+        os.symlink("json.json", self.path("link.json"))
+        os.symlink(".", self.path("here"))
+        before = digests(self.folder)
+        for source, to in (("ball.pov", "ball.pov"), ("json.json", "here/ball.pov"), ("pov.json", "classes.pov"), ("json.json", "json.json"),
+                           ("json.json", "link.json"), ("json.json", "classes.json")):
+            self.refused("convert", self.path(source), self.path(to), status=2,
+                         says=f"{to}: is one of the files that are read for it; name another file")
+        self.assertEqual(digests(self.folder), before)
+
     def test_refusals(self):
         scene, out = os.path.join(SCENES, "demo.json"), self.path("x.pov")
         self.refused("convert", scene, out, "--camera", "lefd", status=2, says=["lefd", "did you mean 'left'"])

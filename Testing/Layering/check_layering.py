@@ -5,7 +5,8 @@
 usage: check_layering.py SOURCE_FOLDER
 
 * every dependency between modules in Modules/*/vtk.module is allowed by the table, and the table has no cycle;
-* no public header names a type or header of a third-party library other than Eigen and VTK;
+* no public header names a type or header of a third-party library other than Eigen and VTK, and one that is installed
+  includes VTK only where its target passes VTK on;
 * modules that must be independent of VTK's rendering name no VTK module;
 * no text in a module names an option of the command line (but for the files that start programs);
 * what drives, writes, reads or shows layers names none of them: their names stand in their own files, in Verification, and
@@ -137,15 +138,21 @@ def closure(module, seen=()):
     return found
 
 
-def dependencies(path):
+def dependencies(path, keys=("DEPENDS", "PRIVATE_DEPENDS", "OPTIONAL_DEPENDS")):
     text = re.sub(r"#.*", "", open(path, encoding="utf-8").read())
     key, names = None, []
     for word in text.split():
         if re.fullmatch(r"[A-Z_]+", word) and not word.startswith("DGTk"):
             key = word
-        elif key in ("DEPENDS", "PRIVATE_DEPENDS", "OPTIONAL_DEPENDS"):
+        elif key in keys:
             names.append(word)
     return names
+
+
+def passes_on_vtk(modules, module):
+    """Whether whoever links a module's target finds headers of VTK."""
+    names = [name.split("::") for name in dependencies(os.path.join(modules, module, "vtk.module"), ("DEPENDS",))]
+    return any(package == "VTK" or (package == "DGTk" and passes_on_vtk(modules, used)) for package, used in names)
 
 
 def check(source):
@@ -153,6 +160,8 @@ def check(source):
     places = {}
     modules = os.path.join(source, "Modules")
     problems = named_in_texts(modules) + list(by_processor(modules))
+    lists = open(os.path.join(source, "CMakeLists.txt"), encoding="utf-8").read()
+    editor = re.search(r'dgtk_editor_modules INCLUDE REGEX "::\((.*?)\)', lists).group(1).split("|")
     owners = {os.path.basename(name): module for module in ALLOWED for name in files(modules, module)}
     for module in sorted(os.listdir(modules)):
         declaration = os.path.join(modules, module, "vtk.module")
@@ -174,6 +183,9 @@ def check(source):
             public = name.endswith(".h") and re.search(r"\b" + re.escape(name) + r"\b", lists)
             if public and PRIVATE_LIBRARIES.search(text):
                 problems.append(f"Modules/{module}/{name}: a public header includes a private library")
+            listed = re.search(r"\b" + os.path.basename(name)[:-2] + r"\b(?!\.cxx)", lists)  # as a header or a class
+            if name.endswith(".h") and listed and module not in editor and re.search(r'#\s*include\s*[<"]vtk', text) and not passes_on_vtk(modules, module):
+                problems.append(f"Modules/{module}/{name}: an installed header includes VTK, which its target does not pass on")
             for defined in classes(text):
                 places.setdefault(defined, []).append(f"Modules/{module}/{name}")
             for included in re.findall(r'#\s*include\s*"(dgtk\w+\.h)"', text):

@@ -244,7 +244,9 @@ TEST(Compare, TolerancesAreOfLayersThatTheDatasetHas)
   manifest.layers.back().spec.unit = "id";
   manifest.layers.push_back({ specOf(PixelType::Float64, 1, "depth"), "npy" });
   manifest.files = { { "a.npy", 0, std::string(64, '0'), "depth", "", -1 },
-    { "b.npy", 0, std::string(64, '0'), "objects", "", -1 }, { "c.txt", 0, std::string(64, '0'), "", "", -1 } };
+    { "b.npy", 0, std::string(64, '0'), "objects", "", -1 }, { "c.txt", 0, std::string(64, '0'), "", "", -1 },
+    { "d.json", 0, std::string(64, '0'), "boxes", "", -1 }, { "e.exr", 0, std::string(64, '0'), "ldi", "", -1 },
+    { "f.png", 0, std::string(64, '0'), "color", "", -1 } };
   writeFile(folder.path("manifest.json"), manifestText(manifest));
   writeValues(folder.path("a.npy"), { 1, 2 }, 2);
   writeValues(folder.path("b.npy"), { 1, 2 }, 2);
@@ -253,10 +255,20 @@ TEST(Compare, TolerancesAreOfLayersThatTheDatasetHas)
     return thrownBy<UsageError>([&] { compareDatasets(folder.path(), folder.path(), { { layer, tolerance } }); });
   };
   EXPECT_EQ(refusal("depth", { 1, {}, {} }), "");
-  EXPECT_THAT(refusal("colour", { 1, {}, {} }), HasSubstr("has no such layer (it has depth, objects)"));
+  EXPECT_THAT(
+    refusal("colour", { 1, {}, {} }), HasSubstr("has no such layer (it has boxes, color, depth, ldi, objects)"));
   EXPECT_THAT(refusal("", { 1, {}, {} }), HasSubstr("has no such layer")); // files of no layer are not one
   EXPECT_THAT(refusal("objects", { 1, {}, {} }), HasSubstr("its values are names"));
   EXPECT_EQ(refusal("objects", { 0, 3, {} }), "");
+  const auto deep = makeLdiWriter("exr", folder.path("e.exr"), 1, 1);
+  LdiRows none;
+  none.height = 1;
+  none.counts = { 0 };
+  deep->write(none);
+  deep->finish();
+  EXPECT_EQ(refusal("boxes", { 0, 3, {} }), "a tolerance for boxes: its files are no images");
+  EXPECT_EQ(refusal("ldi", { 1, {}, {} }), "a tolerance for ldi: its files are no images");
+  EXPECT_EQ(refusal("color", { 1, {}, {} }), "") << "its only picture is missing";
   manifest.layers[0].spec.unit = "class";
   writeFile(folder.path("manifest.json"), manifestText(manifest));
   EXPECT_THAT(refusal("objects", { 1, {}, {} }), HasSubstr("its values are names"));

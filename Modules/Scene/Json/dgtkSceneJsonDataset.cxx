@@ -97,13 +97,19 @@ void readDataset(const JsonCursor& at, SceneDescription& scene)
 void writeDataset(const SceneDescription& scene, const char* key, JsonNode& node)
 {
   JsonNode texts(JsonNode::Type::Object);
+  std::map<std::string, std::string> others = scene.dataset;
   for (const std::string& word : datasetWords())
   {
-    const auto found = scene.dataset.find(word);
-    if (found != scene.dataset.end())
+    const auto found = others.find(word);
+    if (found != others.end())
     {
       texts.add(word, JsonNode::of(found->second));
+      others.erase(found);
     }
+  }
+  for (const auto& [word, text] : others) // unknown: refused where it is read
+  {
+    texts.add(word, JsonNode::of(text));
   }
   if (!texts.children.empty())
   {

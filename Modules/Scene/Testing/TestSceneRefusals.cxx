@@ -96,6 +96,8 @@ TEST(SceneRefusals, Thesis)
     { "1\n" + thesisCamera + "1\n7\n" + key + key, "camera 'Camera0': lookAt is the eye itself at frame 7" },
     { "1\nglObject_Camera: ( 60, 1, 10 )\n[ 0 0 5, 0 0 5, 0 1 0 ]\n0\n",
       "a.scene:2: object 1 of 1: aspect (expected a number, found ')')" },
+    { "1\rglObject_AC: a.ac\r1\r\n0\r< nan 0 0 > { 1, < 0, 0, 0 > }\r",
+      "a.scene:5: model 1 at frame 0: position (expected a finite number, found 'nan')" },
     { std::string("1\nglObject_AC: a\x01.ac\n0\n"), "a.scene:2: object 1 of 1 (expected the name of a model file" },
     { std::string("\x7f"
                   "ELF\x02\x01\x01\0\0\0",
@@ -309,6 +311,9 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
     track.interpolation = Interpolation::Smooth;
     return track;
   }();
+  Track<Vector> once = Vector(1, 1, 1);
+  once.keys = { { 0, Vector(1, 1, 1) } };
+  once.interpolation = Interpolation::Step;
   const std::vector<Change> changes{
     { [](auto& s) { s.fps = 30; }, "scene: fps cannot be said in .scene" },
     { [](auto& s) { s.background = Vector(1, 0, 0); }, "scene: background cannot be said" },
@@ -376,6 +381,31 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
        s.cameras[0].fovY.keys = { { 0, 60 }, { 1, 50 } };
      },
       "camera 'Camera0': fovY cannot be said" },
+    // Also what has no effect.
+    { [](auto& s) { s.environment.intensity = 3; }, "scene: environment cannot" },
+    { [](auto& s) { s.environment.rotation = 9; }, "scene: environment cannot" },
+    { [](auto& s) { s.environment.background = false; }, "scene: environment cannot" },
+    { [](auto& s) { s.fog.color = Vector(1, 0, 0); }, "scene: fog cannot" },
+    { [](auto& s) { s.fog.start = 4; }, "scene: fog cannot" },
+    { [](auto& s) { s.lights[0].shadowSize = 64; }, "light 'Light0': shadowSize cannot" },
+    { [&](auto& s) { s.lights[0].unused.scale = once; }, "light 'Light0': unused.scale cannot" },
+    { [](auto& s)
+      {
+        s.lights[0].unused.orientation.keys = { { 0, {} } };
+        s.lights[0].unused.orientation.interpolation = Interpolation::Step;
+      },
+      "light 'Light0': unused.orientation cannot" },
+    { [&](auto& s) { s.cameras[0].unusedEye.scale = once; }, "camera 'Camera0': unusedEye.scale cannot" },
+    { [&](auto& s) { s.cameras[0].unusedLookAt.scale = once; }, "camera 'Camera0': unusedLookAt.scale cannot" },
+    { [&](auto& s) { s.objects[0].position = once; }, "object 'a-1': position cannot" },
+    { [](auto& s) { s.cameras[0].shutter.open = -1; }, "camera 'Camera0': shutter cannot" },
+    { [](auto& s) { s.cameras[0].shutter.open = s.cameras[0].shutter.close = 1; }, "camera 'Camera0': shutter cannot" },
+    { [](auto& s) { s.cameras[0].shutter.exposures = 3; }, "camera 'Camera0': shutter cannot" },
+    { [](auto& s) { s.cameras[0].rollingShutter.duration = 0.5; }, "camera 'Camera0': rollingShutter cannot" },
+    { [](auto& s) { s.cameras[0].rollingShutter.direction = RollingShutter::Direction::Up; },
+      "camera 'Camera0': rollingShutter cannot" },
+    { [](auto& s) { s.cameras[0].lens.focus = 3; }, "camera 'Camera0': lens cannot" },
+    { [](auto& s) { s.cameras[0].lens.exposures = 3; }, "camera 'Camera0': lens cannot" },
   };
   for (const Change& change : changes)
   {
@@ -418,6 +448,7 @@ TEST(SceneRefusals, PropertiesOfAProgramsSceneObeyTheSameRules)
     { [](auto& s) { s.fog.density = -1; }, "fog.density" }, { [](auto& s) { s.fog.start = -1; }, "fog.start" },
     { [](auto& s) { s.fog.color.value[1] = 2; }, "fog.color[1]" },
     { [](auto& s) { s.seed = std::uint64_t(1) << 60; }, "seed" },
+    { [](auto& s) { s.dataset["nme"] = "x"; }, "dataset.nme" },
     { [](auto& s) {
        s.classes = { { "a", 0 } };
      },

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <charconv>
 #include <vector>
 
@@ -106,6 +107,9 @@ TEST(ThesisScene, IsTolerantOfBlanksCommasAndLineEnds)
   ASSERT_EQ(scene.objects.size(), 1u);
   EXPECT_EQ(scene.objects[0].model, "a b.ac");
   EXPECT_EQ(scene.objects[0].position.at(4), Vector(1, 2, 3));
+  std::string returns = messy;
+  returns.erase(std::remove(returns.begin(), returns.end(), '\n'), returns.end());
+  EXPECT_EQ(toJson(readText(folder, "b.scene", returns), ""), toJson(scene, ""));
 }
 
 TEST(ThesisScene, ScaleBegunLateWasOneBefore)

@@ -35,7 +35,8 @@ void ThesisLexer::skipSeparators()
 {
   while (this->At < this->Text.size() && separates(this->Text[this->At]))
   {
-    this->Line += this->Text[this->At++] == '\n';
+    const char c = this->Text[this->At++];
+    this->Line += c == '\n' || (c == '\r' && this->Text.substr(this->At, 1) != "\n");
   }
 }
 
@@ -132,7 +133,7 @@ Eigen::Vector3d ThesisLexer::vector(const Range& range, const std::string& what)
 
 std::string ThesisLexer::restOfLine(char stop)
 {
-  const std::size_t line = std::min(this->Text.find('\n', this->At), this->Text.size());
+  const std::size_t line = std::min(this->Text.find_first_of("\r\n", this->At), this->Text.size());
   std::string_view rest = this->Text.substr(this->At, line - this->At);
   rest = rest.substr(0, rest.find(stop));
   this->At += rest.size();
@@ -140,7 +141,7 @@ std::string ThesisLexer::restOfLine(char stop)
   {
     rest.remove_prefix(1);
   }
-  while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\t' || rest.back() == '\r'))
+  while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\t'))
   {
     rest.remove_suffix(1);
   }

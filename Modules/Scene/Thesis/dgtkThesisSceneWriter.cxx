@@ -85,10 +85,14 @@ private:
   {
     for (std::size_t key = 0; key < track.keys.size(); ++key)
     {
-      const bool sayable = track.interpolationAfter(key) == Interpolation::Linear;
-      const bool used = key + 1 < track.keys.size() || track.keys[key].interpolation;
-      this->need(sayable || !used, item, property, "linear interpolation");
+      this->need(track.interpolationAfter(key) == Interpolation::Linear, item, property, "linear interpolation");
     }
+  }
+
+  void needLinear(const UnusedKeys& unused, const SceneItem& item, const std::string& property) const
+  {
+    this->needLinear(unused.orientation, item, property + ".orientation");
+    this->needLinear(unused.scale, item, property + ".scale");
   }
 
   void needScene(bool sayable, const std::string& property) const
@@ -104,9 +108,14 @@ private:
     const SceneDescription usual;
     this->needScene(this->Scene.fps == usual.fps, "fps");
     this->needScene(isConstant(this->Scene.background, usual.background.value), "background");
-    this->needScene(this->Scene.environment.image.empty(), "environment");
+    const EnvironmentDescription& light = this->Scene.environment;
+    this->needScene(light.image.empty() && light.intensity == usual.environment.intensity &&
+                      light.rotation == usual.environment.rotation && light.background == usual.environment.background,
+      "environment");
     const FogDescription& fog = this->Scene.fog;
-    this->needScene(isConstant(fog.density, 0.0) && !fog.color.animated() && !fog.start.animated(), "fog");
+    this->needScene(isConstant(fog.density, usual.fog.density.value) && isConstant(fog.color, usual.fog.color.value) &&
+                      isConstant(fog.start, usual.fog.start.value),
+      "fog");
     this->needScene(this->Scene.units.empty(), "units");
     this->needScene(this->Scene.metresPerUnit == 0, "metresPerUnit");
     this->needScene(this->Scene.dataset.empty(), "dataset");
@@ -170,9 +179,11 @@ private:
     this->needOneColor(light.specular, item, "specular");
     this->needOneColor(light.ambient, item, "ambient");
     this->need(!light.shadows, item, "shadows");
+    this->need(light.shadowSize == usual.shadowSize, item, "shadowSize");
     this->need(
       light.name.find('(') == std::string::npos && light.name.front() != ' ' && light.name.back() != ' ', item, "name");
     this->needLinear(light.position, item, "position");
+    this->needLinear(light.unused, item, "unused");
     this->Out += "glObject_Light:";
     // A name of the usual form is left out where the reader gives the same one.
     this->Out += light.name == this->usualLightName(item.index) ? "" : ' ' + light.name;
@@ -225,7 +236,8 @@ private:
 
   void writeCamera(const SceneItem& item, const CameraDescription& camera)
   {
-    this->need(camera.model == CameraDescription().model, item, "model", "pinhole");
+    const CameraDescription usual;
+    this->need(camera.model == usual.model, item, "model", "pinhole");
     this->need(!camera.K, item, "K");
     for (const auto& parameter : camera.parameters)
     {
@@ -233,9 +245,15 @@ private:
     }
     this->need(camera.width == 0, item, "width");
     this->need(camera.height == 0, item, "height");
-    this->need(!camera.shutter.blurs(), item, "shutter");
-    this->need(!(camera.rollingShutter.duration > 0), item, "rollingShutter");
-    this->need(!camera.lens.blurs() && !camera.lens.focus.animated(), item, "lens");
+    const ShutterDescription& shutter = camera.shutter;
+    this->need(
+      shutter.open == 0 && shutter.close == 0 && shutter.exposures == usual.shutter.exposures, item, "shutter");
+    const RollingShutter& rolling = camera.rollingShutter;
+    this->need(rolling.duration == 0 && rolling.direction == usual.rollingShutter.direction, item, "rollingShutter");
+    const LensDescription& lens = camera.lens;
+    this->need(
+      lens.aperture == 0 && isConstant(lens.focus, usual.lens.focus.value) && lens.exposures == usual.lens.exposures,
+      item, "lens");
     this->need(!camera.sensor, item, "sensor");
     this->need(!camera.posed, item, "orientation", "eye and lookAt");
     this->need(!camera.fovY.animated(), item, "fovY", "one value for all frames");
@@ -244,6 +262,8 @@ private:
       camera.name == this->Usual.cameras[item.index].name, item, "name", quoted(this->Usual.cameras[item.index].name));
     this->needLinear(camera.eye, item, "eye");
     this->needLinear(camera.lookAt, item, "lookAt");
+    this->needLinear(camera.unusedEye, item, "unusedEye");
+    this->needLinear(camera.unusedLookAt, item, "unusedLookAt");
     this->Out += "glObject_Camera: ( " + plainNumber(camera.fovY.value) + ", " + plainNumber(camera.near) + ", " +
                  plainNumber(camera.far) + ", " + plainNumber(camera.aspect) + " )\n[ " + vectorText(camera.eye.value) +
                  ", " + vectorText(camera.lookAt.value) + ", " + vectorText(camera.up.value) + " ]\n";

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkPovExport.h"
 #include "dgtkSyntheticScene.h"
@@ -7,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 namespace dgtk
@@ -395,6 +397,37 @@ TEST_F(PovWhole, MissingTexelsMirrorNothing)
   square->materials[0].cutOut = true;
   EXPECT_THAT(
     this->write(*test::SceneBuilder().add(square).state(), options), testing::Not(testing::HasSubstr("reflection")));
+}
+
+TEST_F(PovWhole, NothingIsWrittenOverWhatIsRead)
+{
+  const auto at = [this](const std::string& name) { return this->Folder.path(name); };
+  const auto square = makePictured(at("s_1.ppm"));
+  square->materials[0].diffuse = { 1, 0.5, 0.1 };
+  square->path = at("model.pov");
+  square->companions = { at("s_2_mask.pgm") };
+  for (const char* name : { "model.pov", "s_2_mask.pgm", "s_0.ppm" })
+  {
+    writeFile(at(name), "mine");
+  }
+  std::filesystem::create_hard_link(at("s_0.ppm"), at("sky.ppm"));
+  std::filesystem::create_symlink("model.pov", at("link.pov"));
+  const auto state = test::SceneBuilder().add(square).state();
+  PovOptions options;
+  options.inputs = { at("sky.ppm"), at("missing") };
+  EXPECT_THAT(this->write(*state, options), testing::HasSubstr("image_map { ppm \"s_3.ppm\""));
+  EXPECT_EQ(this->Result.files, (std::vector<std::string>{ at("s_3.ppm"), at("s.pov") }));
+  for (const char* name : { "model.pov", "link.pov" })
+  {
+    const std::string refusal = at(name) + ": is one of the files that are read for it; name another file";
+    EXPECT_EQ(test::thrownBy<UsageError>([&] { exportPov(*state, straightView(), at(name)); }), refusal);
+    EXPECT_EQ(test::thrownBy<UsageError>([&] { exportPov(square, at(name)); }), refusal);
+  }
+  EXPECT_FALSE(std::filesystem::exists(at("model_0.ppm")));
+  for (const char* name : { "model.pov", "link.pov", "s_2_mask.pgm", "s_0.ppm" })
+  {
+    EXPECT_EQ(readFile(at(name)), "mine") << name;
+  }
 }
 
 // What stands at near or far is drawn or not by a rounding: it is left to POV-Ray's planes.

@@ -259,6 +259,16 @@ TEST(StageTables, SkinsByEachOfTheirNames)
                   "a\\b/one.ppm, two.ppm, found '") +
         name + "')");
   }
+  // A name that begins with a dot is all stem; its file is called otherwise. What the model says comes first.
+  bytes.replace(68, 14, std::string(".one\0\0\0\0\0\0\0\0\0\0", 14));
+  writeFile(folder.path("models/runner.md2"), bytes);
+  for (const char* name : { ".one", "one", "one.ppm" })
+  {
+    EXPECT_EQ(skin(name), "0") << name;
+  }
+  bytes.replace(68, 4, ".two");
+  writeFile(folder.path("models/runner.md2"), bytes);
+  EXPECT_EQ(skin("two"), "1");
 }
 
 TEST(StageTables, WarningsOfPicturesAndModels)
