@@ -133,7 +133,8 @@ int Arguments::integer(const std::string& name, int least, int most) const
 int Arguments::threads() const
 {
   constexpr int most = 1024;
-  return this->has("--threads") ? this->integer("--threads", 1, most) : machineThreads();
+  const int asked = this->has("--threads") ? this->integer("--threads", 0, most) : 0;
+  return asked > 0 ? asked : machineThreads();
 }
 
 void Arguments::size(const std::string& name, int most, int& width, int& height) const

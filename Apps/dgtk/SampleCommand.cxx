@@ -8,8 +8,6 @@
 #include "dgtkSampleRun.h"
 #include "dgtkSampler.h"
 
-#include <algorithm>
-#include <thread>
 
 namespace dgtk::app
 {
@@ -54,8 +52,7 @@ SampleRequest parseSampleRequest(const Arguments& arguments)
     request.seed = parseSeed(arguments.text("--seed"));
   }
   request.replace = arguments.has("--replace");
-  const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  request.threads = arguments.has("--threads") ? arguments.integer("--threads", 1, 1024) : machine;
+  request.threads = arguments.threads();
   return request;
 }
 

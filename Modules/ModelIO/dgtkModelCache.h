@@ -24,7 +24,7 @@ public:
   ModelCache(const std::string& folder, std::uint64_t bytes);
 
   /// That of the user: $XDG_CACHE_HOME/dgtk or ~/.cache/dgtk, at most 2048 MiB, or as many as the environment variable
-  /// DGTK_CACHE says. Null when that is 0, or there is no such folder. Throws MachineError when it is no number.
+  /// DGTK_CACHE says. Null when that is 0, or there is no such folder. Throws UsageError when it is no number.
   static std::shared_ptr<ModelCache> ofUser();
 
   /// Makes a cache that of all models that are read where ReadOptions names no other, null for none. Programs call it

@@ -92,4 +92,5 @@ dgtk_debian_package(libdgtk-dev SECTION libdevel
 "For programs that use DGTk's libraries: find_package(DGTk) of CMake, targets
 DGTk::Core, DGTk::Pipeline and others."
   DEPENDS "dgtk ${dgtk_same}" libeigen3-dev libvtk9-dev) # DGTkConfig.cmake looks for these
+set(CPACK_DEBIAN_LIBDGTK-DEV_PACKAGE_SHLIBDEPS OFF) # of headers and links there are none to look for
 include(CPack)

@@ -35,7 +35,7 @@ std::uint64_t mebibytesOfEnvironment()
   const std::string digits = environment(sizeVariable);
   if (digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos)
   {
-    throw MachineError(std::string(sizeVariable) + " is not a number of MiB: " + quoted(digits));
+    throw UsageError(std::string(sizeVariable) + " is not a number of MiB: " + quoted(digits));
   }
   return digits.empty() ? usualMebibytes : std::stoull(digits);
 }

@@ -414,7 +414,7 @@ TEST(ModelCache, IsWhereTheEnvironmentSays)
   EXPECT_EQ(of(nullptr, "/home/me", "5"), "/home/me/.cache/dgtk");
   EXPECT_EQ(of(nullptr, nullptr, nullptr), "");
   EXPECT_EQ(of("/x", "/home/me", "0"), "");
-  EXPECT_THROW(of("/x", "/home/me", "many"), dgtk::MachineError);
+  EXPECT_THROW(of("/x", "/home/me", "many"), dgtk::UsageError);
   of(nullptr, before.c_str(), nullptr);
 }
 
