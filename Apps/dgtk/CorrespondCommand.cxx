@@ -98,8 +98,9 @@ int runCorrespond(const Arguments& arguments)
   const std::string text = file == "-"
                              ? std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>())
                              : readFile(file);
+  const SparseView from = named(*stage, request.fromCamera, request.fromFrame, request);
   const std::vector<SparseMatch> matches =
-    correspondPoints(*stage, request, parsePoints(text, file == "-" ? "standard input" : file));
+    correspondPoints(*stage, request, parsePoints(text, file == "-" ? "standard input" : file, from));
   print(arguments.has("--json") ? asJson(matches, *stage) : asText(*stage, request, matches));
   return 0;
 }

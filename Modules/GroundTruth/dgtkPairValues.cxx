@@ -2,6 +2,7 @@
 #include "dgtkPairValues.h"
 
 #include <cmath>
+#include <limits>
 
 namespace dgtk
 {
@@ -66,9 +67,11 @@ double rectifiedBaseline(const View& a, const View& b)
   // centre of b in the frame of a
   const Eigen::Vector3d centre =
     a.camera_from_world * Eigen::Vector3d(-b.camera_from_world.rotation.transpose() * b.camera_from_world.translation);
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
+                          (a.camera_from_world.translation.norm() + b.camera_from_world.translation.norm());
   const bool rectified = difference.cwiseAbs().maxCoeff() <= same * own->K(0, 0) &&
-                         rotation.cwiseAbs().maxCoeff() <= same && std::abs(centre.x()) > 0 &&
-                         std::max(std::abs(centre.y()), std::abs(centre.z())) <= same * std::abs(centre.x());
+                         rotation.cwiseAbs().maxCoeff() <= same && std::abs(centre.x()) > rounding &&
+                         centre.tail<2>().cwiseAbs().maxCoeff() <= same * std::abs(centre.x()) + rounding;
   return rectified ? centre.x() : 0;
 }
 

@@ -29,7 +29,8 @@ DGTKGROUNDTRUTH_EXPORT void pairRows(
   const PixelRect& rect, const double* pixels, PairValue value, double* values, const double* own = nullptr);
 
 /// Centre of camera b on the x axis of camera a, when the two are a rectified pair: two perspectives of one size, the
-/// same K but for the column of the principal point, one orientation, displaced along x only (to 1e-9). Otherwise 0.
+/// same K but for the column of the principal point, one orientation, displaced along x only (to 1e-9, and the rounding
+/// of their places). Otherwise 0.
 DGTKGROUNDTRUTH_EXPORT double rectifiedBaseline(const View& a, const View& b);
 
 } // namespace dgtk

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dgtk
 {
@@ -26,11 +27,15 @@ constexpr double uncertainShare = 0.05;
 /// Square pixels: a splat seen flatter than this has no slope.
 constexpr double leastArea = 1e-3;
 
+/// Whose left and right side are one, and whose upper and lower side are a point each.
+bool isPanorama(const CameraModel& model) { return model.name() == "equirectangular"; }
+
 /// A sample in the other view: the rectangle centre +- half on a plane.
 struct Splat
 {
   double x, y;
   double halfX, halfY;
+  double farX;   ///< how far to the sides it is seen where nothing else is
   double depth;  ///< at the centre
   double slopeX; ///< of depth, per pixel
   double slopeY;
@@ -43,6 +48,46 @@ struct Splat
            std::clamp(this->slopeX * (px - this->x) + this->slopeY * (py - this->y), -this->reach, this->reach);
   }
 };
+
+/// What a pixel of the first view becomes at a place, of which a step to the right and one down are the columns of
+/// `steps`, in pixels, and `depths`, and as long as `length` together, on the surface.
+void write(const Eigen::Vector2d& place, double depth, const Eigen::Matrix2d& steps, const Eigen::Vector2d& depths,
+  double length, const Eigen::Vector2d& largest, Splat& out)
+{
+  out.x = place.x();
+  out.y = place.y();
+  out.halfX = std::clamp(splatReach * steps.row(0).cwiseAbs().sum(), 0.5, largest.x());
+  out.halfY = std::clamp(splatReach * steps.row(1).cwiseAbs().sum(), 0.5, largest.y());
+  out.farX = out.halfX;
+  out.depth = depth;
+  out.reach = splatReach * (std::abs(depths[0]) + std::abs(depths[1]));
+  out.slack = uncertainShare * length;
+  const double area = steps(0, 0) * steps(1, 1) - steps(0, 1) * steps(1, 0);
+  const bool flat = std::abs(area) < leastArea;
+  out.slopeX = flat ? 0 : (depths[0] * steps(1, 1) - depths[1] * steps(1, 0)) / area;
+  out.slopeY = flat ? 0 : (depths[1] * steps(0, 0) - depths[0] * steps(0, 1)) / area;
+}
+
+/// The same in a linear projection of a point and steps in the camera's frame; magnification: pixels that one of the
+/// first view is as wide as, seen from the front.
+void write(const LinearProjection& to, const Eigen::Vector3d& x, const Eigen::Vector3d& right,
+  const Eigen::Vector3d& down, double magnification, Splat& out)
+{
+  const Eigen::Matrix3d& K = to.K;
+  const double divisor = to.perspective ? x.z() : 1;
+  const double u = x.x() / divisor;
+  const double v = x.y() / divisor;
+  Eigen::Matrix2d steps;
+  int column = 0;
+  for (const Eigen::Vector3d* d : { &right, &down })
+  {
+    const double du = (d->x() - (to.perspective ? u * d->z() : 0)) / divisor;
+    const double dv = (d->y() - (to.perspective ? v * d->z() : 0)) / divisor;
+    steps.col(column++) << K(0, 0) * du + K(0, 1) * dv, K(1, 1) * dv;
+  }
+  write({ K(0, 0) * u + K(0, 1) * v + K(0, 2), K(1, 1) * v + K(1, 2) }, x.z(), steps, { right.z(), down.z() },
+    right.norm() + down.norm(), Eigen::Vector2d::Constant(largestSplat * std::max(1.0, magnification)), out);
+}
 
 class Reprojection
 {
@@ -77,8 +122,8 @@ public:
     const Eigen::Vector3d normal = splatNormal(sample.splatIndex);
     const double facing = std::min(normal.dot(ray), -flattestSine * ray.norm());
     const Eigen::Matrix3d& R = this->To_from_From.rotation;
-    this->place(moved, R * (right - ray * (normal.dot(right) / facing)), R * (down - ray * (normal.dot(down) / facing)),
-      this->magnification(scale, moved.z()), out);
+    write(this->To, moved, R * (right - ray * (normal.dot(right) / facing)),
+      R * (down - ray * (normal.dot(down) / facing)), this->magnification(scale, moved.z()), out);
     return true;
   }
 
@@ -88,35 +133,6 @@ private:
   {
     const double other = this->To.perspective ? 1 / depth : 1;
     return std::max(this->To.K(0, 0) / this->From.K(0, 0), this->To.K(1, 1) / this->From.K(1, 1)) * scale * other;
-  }
-
-  void place(const Eigen::Vector3d& x, const Eigen::Vector3d& right, const Eigen::Vector3d& down, double magnification,
-    Splat& out) const
-  {
-    const Eigen::Matrix3d& K = this->To.K;
-    const double divisor = this->To.perspective ? x.z() : 1;
-    const double u = x.x() / divisor;
-    const double v = x.y() / divisor;
-    out.x = K(0, 0) * u + K(0, 1) * v + K(0, 2);
-    out.y = K(1, 1) * v + K(1, 2);
-    const double largest = largestSplat * std::max(1.0, magnification);
-    Eigen::Matrix2d steps; // columns: to the right, down
-    int column = 0;
-    for (const Eigen::Vector3d* d : { &right, &down })
-    {
-      const double du = (d->x() - (this->To.perspective ? u * d->z() : 0)) / divisor;
-      const double dv = (d->y() - (this->To.perspective ? v * d->z() : 0)) / divisor;
-      steps.col(column++) << K(0, 0) * du + K(0, 1) * dv, K(1, 1) * dv;
-    }
-    out.halfX = std::clamp(splatReach * steps.row(0).cwiseAbs().sum(), 0.5, largest);
-    out.halfY = std::clamp(splatReach * steps.row(1).cwiseAbs().sum(), 0.5, largest);
-    out.depth = x.z();
-    out.reach = splatReach * (std::abs(right.z()) + std::abs(down.z()));
-    out.slack = uncertainShare * (right.norm() + down.norm());
-    const double area = steps(0, 0) * steps(1, 1) - steps(0, 1) * steps(1, 0);
-    const bool flat = std::abs(area) < leastArea;
-    out.slopeX = flat ? 0 : (right.z() * steps(1, 1) - down.z() * steps(1, 0)) / area;
-    out.slopeY = flat ? 0 : (down.z() * steps(0, 0) - right.z() * steps(0, 1)) / area;
   }
 
   LinearProjection From;
@@ -134,6 +150,7 @@ public:
   LensReprojection(const View& from, const View& to)
     : From(*from.model)
     , To(to)
+    , Linear(to.model->linear())
     , To_from_From(to.camera_from_world * from.camera_from_world.inverse())
   {
   }
@@ -144,37 +161,50 @@ public:
     const Eigen::Vector2d centre(column + 0.5, row + 0.5);
     const CameraRay ray = this->From.rayThrough(centre);
     const Eigen::Vector3d point = ray.origin + sample.depth * ray.direction;
+    const Eigen::Vector3d moved = this->To_from_From * point;
     Place place;
-    if (!ray.exists() || !this->place(point, place) || !(place.range >= this->To.near && place.range <= this->To.far))
+    if (!ray.exists() || !this->place(moved, place) || !(place.range >= this->To.near && place.range <= this->To.far))
     {
       return false;
     }
     const Eigen::Vector3d normal = towards(splatNormal(sample.splatIndex), ray.direction);
-    Footprint prints[2]; // to the right, down
-    for (int axis = 0; axis < 2; ++axis)
+    const Step right = this->step(centre, 0, sample.depth, point, normal);
+    const Step down = this->step(centre, 1, sample.depth, point, normal);
+    if (this->Linear)
     {
-      if (!this->footprint(centre, axis, sample.depth, point, normal, place, prints[axis]))
-      {
-        return false;
-      }
+      const Eigen::Matrix3d& K = this->Linear->K;
+      const double size = std::max(right.front.norm(), down.front.norm()) / (this->Linear->perspective ? moved.z() : 1);
+      write(*this->Linear, moved, right.along, down.along, size * std::max(K(0, 0), K(1, 1)), out);
+      return true;
     }
-    this->write(place, prints, out);
+    const Place moves[2] = { this->change(moved, right.along, place), this->change(moved, down.along, place) };
+    Eigen::Matrix2d steps;
+    steps << moves[0].pixel, moves[1].pixel;
+    const bool large = splatReach * steps.cwiseAbs().rowwise().sum().maxCoeff() > largestSplat;
+    const double front = large ? std::max(this->change(moved, right.front, place).pixel.norm(),
+                                   this->change(moved, down.front, place).pixel.norm())
+                               : 1;
+    const Eigen::Vector2d half(0.5 * this->To.model->width(), 0.5 * this->To.model->height());
+    write(place.pixel, place.range, steps, { moves[0].range, moves[1].range }, right.along.norm() + down.along.norm(),
+      half.cwiseMin(largestSplat * std::max(1.0, front)), out);
+    if (isPanorama(*this->To.model) && half.y() - std::abs(out.y - half.y()) < out.halfY)
+    {
+      out.farX = half.x(); // over a pole
+    }
     return true;
   }
 
 private:
   struct Place
   {
-    Eigen::Vector2d pixel;
-    double range;
-  };
-  /// What a step of a pixel on the surface is in the other view.
-  struct Footprint
-  {
-    double length = 0; ///< scene units
-    Eigen::Vector2d pixels{ 0, 0 };
+    Eigen::Vector2d pixel{ 0, 0 };
     double range = 0;
-    double front = 0; ///< pixels, of a surface across the ray
+  };
+  /// One pixel of the first view, in the frame of the other.
+  struct Step
+  {
+    Eigen::Vector3d along{ 0, 0, 0 }; ///< on the surface
+    Eigen::Vector3d front{ 0, 0, 0 }; ///< on one across the ray
   };
 
   /// The normal's z is known but for its sign.
@@ -184,10 +214,9 @@ private:
     return other.dot(direction) < normal.dot(direction) ? other : normal;
   }
 
-  bool place(const Eigen::Vector3d& x_in_from, Place& place) const
+  bool place(const Eigen::Vector3d& x, Place& place) const
   {
     const CameraModel& model = *this->To.model;
-    const Eigen::Vector3d x = this->To_from_From * x_in_from;
     if (!model.project(x, place.pixel))
     {
       return false;
@@ -197,71 +226,56 @@ private:
     return std::isfinite(place.range);
   }
 
-  /// Where a step leads to, or where the opposite one comes from: not across the end of a picture or the seam of a
-  /// panorama.
-  bool step(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const Place& place, Place& difference) const
-  {
-    for (const int sign : { 1, -1 })
-    {
-      Place there;
-      if (this->place(from + sign * step, there))
-      {
-        difference = { sign * (there.pixel - place.pixel), sign * (there.range - place.range) };
-        if (std::abs(difference.pixel.x()) < 0.5 * this->To.model->width())
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  bool footprint(const Eigen::Vector2d& centre, int axis, double t, const Eigen::Vector3d& point,
-    const Eigen::Vector3d& normal, const Place& place, Footprint& out) const
+  /// To the next pixel, or from the last one where no ray is beyond.
+  Step step(const Eigen::Vector2d& centre, int axis, double t, const Eigen::Vector3d& point,
+    const Eigen::Vector3d& normal) const
   {
     for (const int sign : { 1, -1 })
     {
       Eigen::Vector2d beside = centre;
       beside[axis] += sign;
       const CameraRay ray = this->From.rayThrough(beside);
-      if (!ray.exists())
+      if (ray.exists())
       {
-        continue;
-      }
-      const Eigen::Vector3d front = sign * (ray.origin + t * ray.direction - point);
-      const double facing = std::min(normal.dot(ray.direction), -flattestSine * ray.direction.norm());
-      const Eigen::Vector3d along = front - ray.direction * (normal.dot(front) / facing);
-      Place moved;
-      Place acrossRay;
-      if (this->step(point, along, place, moved) && this->step(point, front, place, acrossRay))
-      {
-        out = { along.norm(), moved.pixel, moved.range, acrossRay.pixel.norm() };
-        return true;
+        const Eigen::Vector3d front = sign * (ray.origin + t * ray.direction - point);
+        const double facing = std::min(normal.dot(ray.direction), -flattestSine * ray.direction.norm());
+        const Eigen::Matrix3d& R = this->To_from_From.rotation;
+        return { R * (front - ray.direction * (normal.dot(front) / facing)), R * front };
       }
     }
-    return false;
+    return {};
   }
 
-  static void write(const Place& place, const Footprint (&prints)[2], Splat& out)
+  /// How the place moves with x, by the shorter of the steps to and fro; not at all where they differ by more than
+  /// that, as around the end of a fisheye. In a panorama, whose pixels are wide at its poles, it is the derivative.
+  Place change(const Eigen::Vector3d& x, const Eigen::Vector3d& step, const Place& place) const
   {
-    Eigen::Matrix2d steps; // columns: to the right, down
-    steps << prints[0].pixels, prints[1].pixels;
-    const double largest = largestSplat * std::max({ 1.0, prints[0].front, prints[1].front });
-    out.x = place.pixel.x();
-    out.y = place.pixel.y();
-    out.halfX = std::clamp(splatReach * steps.row(0).cwiseAbs().sum(), 0.5, largest);
-    out.halfY = std::clamp(splatReach * steps.row(1).cwiseAbs().sum(), 0.5, largest);
-    out.depth = place.range;
-    out.reach = splatReach * (std::abs(prints[0].range) + std::abs(prints[1].range));
-    out.slack = uncertainShare * (prints[0].length + prints[1].length);
-    const double area = steps.determinant();
-    const bool flat = std::abs(area) < leastArea;
-    out.slopeX = flat ? 0 : (prints[0].range * steps(1, 1) - prints[1].range * steps(1, 0)) / area;
-    out.slopeY = flat ? 0 : (prints[1].range * steps(0, 0) - prints[0].range * steps(0, 1)) / area;
+    const bool panorama = isPanorama(*this->To.model);
+    const double length = panorama ? 1e-3 : 1;
+    Place ways[2];
+    int count = 0;
+    for (const double part : { length, -length })
+    {
+      Place there;
+      if (this->place(x + part * step, there))
+      {
+        Eigen::Vector2d moved = there.pixel - place.pixel;
+        moved.x() = panorama ? std::remainder(moved.x(), this->To.model->width()) : moved.x();
+        ways[count++] = { moved / part, (there.range - place.range) / part };
+      }
+    }
+    const double to = ways[0].pixel.norm();
+    const double fro = ways[1].pixel.norm();
+    if (count < 2 || (ways[0].pixel - ways[1].pixel).norm() > std::min(to, fro))
+    {
+      return count < 2 ? ways[0] : Place();
+    }
+    return to <= fro ? ways[0] : ways[1];
   }
 
   const CameraModel& From;
   const View& To;
+  std::optional<LinearProjection> Linear;
   Rigid3 To_from_From;
 };
 
@@ -278,27 +292,35 @@ struct Fragment
 class Picture
 {
 public:
-  Picture(int width, int height)
-    : Width(width)
-    , Height(height)
-    , Back(std::size_t(width) * height, std::numeric_limits<double>::infinity())
+  explicit Picture(const CameraModel& model)
+    : Width(model.width())
+    , Height(model.height())
+    , Wraps(isPanorama(model))
+    , Back(std::size_t(Width) * Height, std::numeric_limits<double>::infinity())
     , Sums(Back.size() * 3, 0.0)
     , Weights(Back.size(), 0.0)
   {
+    for (std::size_t i = 0; i < this->Back.size() && !model.linear(); ++i)
+    {
+      if (!model.rayThrough({ double(i % this->Width) + 0.5, double(i / this->Width) + 0.5 }).exists())
+      {
+        this->Back[i] = -this->Back[i]; // nothing is seen there
+      }
+    }
   }
 
   void cover(const Splat& splat, const WarpSample& sample)
   {
     if (sample.rgba[3] == 255)
     {
-      this->forPixels(splat,
+      this->forPixels(splat, splat.halfX,
         [&](std::size_t i, double, double depth) { this->Back[i] = std::min(this->Back[i], depth + splat.slack); });
     }
   }
 
   void colour(const Splat& splat, const WarpSample& sample)
   {
-    this->forPixels(splat,
+    this->forPixels(splat, sample.rgba[3] < 255 ? splat.halfX : splat.farX,
       [&](std::size_t i, double weight, double depth)
       {
         if (depth - splat.slack > this->Back[i])
@@ -325,33 +347,36 @@ public:
     image.height = this->Height;
     image.holes.resize(this->Weights.size());
     image.rgb.resize(this->Sums.size());
+    for (std::size_t c = 0; c < this->Sums.size(); ++c)
+    {
+      const double weight = this->Weights[c / 3];
+      this->Sums[c] = weight == 0 ? 0 : this->Sums[c] / weight;
+    }
+    this->blendVeils();
     for (std::size_t i = 0; i < this->Weights.size(); ++i)
     {
       const bool hole = this->Weights[i] == 0;
       image.holes[i] = hole ? 255 : 0;
       image.holeCount += hole;
-      for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-      {
-        this->Sums[c] = hole ? 0 : this->Sums[c] / this->Weights[i];
-      }
     }
-    this->blendVeils();
     std::transform(this->Sums.begin(), this->Sums.end(), image.rgb.begin(),
       [](double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 255.0) + 0.5); });
     return image;
   }
 
 private:
-  /// The pixels whose centre lies in a splat, with the weight and the depth of the splat there.
+  /// The pixels whose centre lies in a splat that is so wide, with the weight and the depth of the splat there.
   template <typename Body>
-  void forPixels(const Splat& s, const Body& body) const
+  void forPixels(const Splat& s, double halfX, const Body& body) const
   {
-    if (!(s.x + s.halfX > 0 && s.x - s.halfX < this->Width && s.y + s.halfY > 0 && s.y - s.halfY < this->Height))
+    if (!(s.x + halfX > 0 && s.x - halfX < this->Width && s.y + s.halfY > 0 && s.y - s.halfY < this->Height))
     {
       return;
     }
-    const int left = std::max(0, static_cast<int>(std::ceil(s.x - s.halfX - 0.5)));
-    const int right = std::min(this->Width, static_cast<int>(std::ceil(s.x + s.halfX - 0.5)));
+    const double first = std::ceil(s.x - halfX - 0.5);
+    const double end = std::ceil(s.x + halfX - 0.5);
+    const int left = static_cast<int>(this->Wraps ? first : std::max(0.0, first));
+    const int right = static_cast<int>(this->Wraps ? end : std::min<double>(this->Width, end));
     const int top = std::max(0, static_cast<int>(std::ceil(s.y - s.halfY - 0.5)));
     const int bottom = std::min(this->Height, static_cast<int>(std::ceil(s.y + s.halfY - 0.5)));
     for (int y = top; y < bottom; ++y)
@@ -360,7 +385,8 @@ private:
       for (int x = left; x < right; ++x)
       {
         const double horizontal = std::max(leastWeight, 1 - std::abs(x + 0.5 - s.x) / s.halfX);
-        body(std::size_t(y) * this->Width + x, vertical * horizontal, s.depthAt(x + 0.5, y + 0.5));
+        const int column = this->Wraps ? (x + this->Width) % this->Width : x;
+        body(std::size_t(y) * this->Width + column, vertical * horizontal, s.depthAt(x + 0.5, y + 0.5));
       }
     }
   }
@@ -388,12 +414,14 @@ private:
         double& value = this->Sums[3 * veil.pixel + c];
         value += opacity * (veil.rgba[c] - value);
       }
+      this->Weights[veil.pixel] = 1; // no hole
       first = next;
     }
   }
 
   int Width;
   int Height;
+  bool Wraps;               ///< left and right side are one
   std::vector<double> Back; ///< farthest depth of the nearest opaque surface
   std::vector<double> Sums; ///< 3 per pixel
   std::vector<double> Weights;
@@ -406,7 +434,7 @@ namespace
 template <class Reprojected>
 WarpedImage warp(const WarpSource& source, const Reprojected& reprojection, const CameraModel& to)
 {
-  Picture picture(to.width(), to.height());
+  Picture picture(to);
   Splat splat{};
   source(
     [&](int x, int y, const WarpSample& sample)

@@ -30,16 +30,15 @@ struct WarpedImage
 {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;   ///< 3 per pixel, rows top to bottom; black where no sample fell
-  std::vector<std::uint8_t> holes; ///< 1 per pixel: 255 where no sample fell, else 0
+  std::vector<std::uint8_t> rgb;   ///< 3 per pixel, rows top to bottom; black in holes
+  std::vector<std::uint8_t> holes; ///< 1 per pixel: 255 where no sample fell, or no ray is, else 0
   std::uint64_t holeCount = 0;
 };
 
 /// Forward warping: every sample is moved into the other view and drawn as a rectangle as large as the picture there of
 /// its pixel on the surface, by the plane through the sample with the splat index's normal; the first surface of each
 /// pixel by a z-buffer, samples of one surface blended by their distance from the pixel's centre. Samples that are not
-/// opaque are laid over what is behind them and leave holes where nothing is. `source` is called twice. Cameras of any
-/// model.
+/// opaque are laid over what is behind them, or over black. `source` is called twice. Cameras of any model.
 DGTKGROUNDTRUTH_EXPORT WarpedImage warpLayeredDepth(const WarpSource& source, const View& from, const View& to);
 
 } // namespace dgtk

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace dgtk
@@ -26,9 +27,11 @@ double rectifiedBaseline(const Eye& a, const Eye& b)
   Eigen::Matrix3d K = a.record().K - b.record().K;
   K(0, 2) = 0;
   const Eigen::Vector3d centre = a.toCamera(b.toWorld(Eigen::Vector3d::Zero()));
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * (a.record().t.norm() + b.record().t.norm());
   const bool same = K.cwiseAbs().maxCoeff() <= rectifiedTolerance * a.record().K(0, 0) &&
                     (a.record().R - b.record().R).cwiseAbs().maxCoeff() <= rectifiedTolerance &&
-                    centre.tail<2>().cwiseAbs().maxCoeff() <= rectifiedTolerance * std::abs(centre.x());
+                    std::abs(centre.x()) > rounding &&
+                    centre.tail<2>().cwiseAbs().maxCoeff() <= rectifiedTolerance * std::abs(centre.x()) + rounding;
   return same ? centre.x() : 0;
 }
 

@@ -122,10 +122,10 @@ class Correspond(Case):
         points = self.write("points.txt", "1 2\n3\n")
         views = ["--from", "left", "--to", "right"]
         self.refused("correspond", STEREO, *views, "--points", points, status=3, says=("points.txt:2", "two numbers"))
-        self.refused("correspond", STEREO, *views, "--points", self.write("far.txt", "400 10"), status=2, says="outside")
+        self.refused("correspond", STEREO, *views, "--points", self.write("far.txt", "400 10"), status=3, says=("far.txt:1", "outside"))
         self.refused("correspond", STEREO, *views, "--points", self.write("nan.txt", "nan 3"), status=3, says="found nan")
         for far in ("320.001 10", "10 240.001", "-0.001 10", "10 -0.001"):
-            self.refused("correspond", STEREO, *views, "--points", self.write("far.txt", far), status=2, says="expected 0 to 320, 0 to 240")
+            self.refused("correspond", STEREO, *views, "--points", self.write("far.txt", far), status=3, says="expected 0 to 320, 0 to 240")
         corners = self.write("corners.txt", "0 0\n320 0\n0 240\n320 240")  # the borders of the image belong to it
         self.assertEqual(len(json.loads(self.dgtk("correspond", STEREO, *views, "--points", corners, "--json").stdout)["matches"]), 4)
         self.refused("correspond", STEREO, "--from", "middle", "--to", "right", "--points", points, status=2, says="'middle'")

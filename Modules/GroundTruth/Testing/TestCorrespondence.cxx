@@ -338,6 +338,11 @@ TEST(RectifiedBaseline, IsThatOfCamerasSideBySideOnly)
   View turned = pairViewAt({ 0.5, 0, 0 });
   turned.camera_from_world.rotation = Eigen::AngleAxisd(1e-6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   EXPECT_EQ(rectifiedBaseline(own, turned), 0);
+  const View far = pairViewAt({ 0, 5e6, 5e6 }); // 1e-9 is the step of such a number
+  EXPECT_EQ(rectifiedBaseline(far, pairViewAt({ 0.5, 5e6 + 3e-9, 5e6 - 3e-9 })), 0.5);
+  EXPECT_EQ(rectifiedBaseline(pairViewAt({ 0.5, 5e6 + 3e-9, 5e6 - 3e-9 }), far), -0.5);
+  EXPECT_EQ(rectifiedBaseline(far, pairViewAt({ 0.5, 5e6 + 1e-7, 5e6 })), 0);
+  EXPECT_EQ(rectifiedBaseline(far, pairViewAt({ 1e-9, 5e6, 5e6 })), 0) << "one place";
   const auto with = [](double fx, double fy, int width, int height)
   {
     View view = pairViewAt({ 0.5, 0, 0 });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkKeypointTruth.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkInstantSource.h"
 #include "dgtkRaySource.h"
 #include "dgtkSyntheticScene.h"

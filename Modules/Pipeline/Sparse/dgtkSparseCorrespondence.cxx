@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSparseCorrespondence.h"
 
-#include "dgtkError.h"
 #include "dgtkRaySource.h"
-
-#include <sstream>
 
 namespace dgtk
 {
-
-namespace
-{
-void requireInside(const Eigen::Vector2d& point, const View& view)
-{
-  if (point.x() >= 0 && point.y() >= 0 && point.x() <= view.model->width() && point.y() <= view.model->height())
-  {
-    return;
-  }
-  std::ostringstream text;
-  text << "point (" << point.x() << ", " << point.y() << ") is outside the image of camera " << quoted(view.name)
-       << " (expected 0 to " << view.model->width() << ", 0 to " << view.model->height() << ')';
-  throw UsageError(text.str());
-}
-} // namespace
 
 std::vector<SparseMatch> correspondPoints(
   const Stage& stage, const SparseRequest& request, const std::vector<Eigen::Vector2d>& points)
@@ -39,7 +21,6 @@ std::vector<SparseMatch> correspondPoints(
   std::vector<SparseMatch> matches;
   for (const Eigen::Vector2d& point : points)
   {
-    requireInside(point, view);
     SparseMatch match;
     match.from = point;
     match.to = correspondPixel(*stateFrom, view, *first, point, other, &match.hit);

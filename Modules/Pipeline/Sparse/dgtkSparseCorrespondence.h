@@ -32,7 +32,7 @@ struct SparseMatch
   Hit hit; ///< object 0 where there is no surface
 };
 
-/// Correspondences of image points (pixels, inside the first image). Throws UsageError for a point outside.
+/// Correspondences of image points (pixels, inside the first image).
 DGTKPIPELINE_EXPORT std::vector<SparseMatch> correspondPoints(
   const Stage& stage, const SparseRequest& request, const std::vector<Eigen::Vector2d>& points);
 

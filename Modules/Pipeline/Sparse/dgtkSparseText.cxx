@@ -20,11 +20,11 @@ constexpr double largestId = 4294967295.0;
 
 bool isSeparator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
 
-/// Calls act(line, number) for each line, numbered from 1.
+/// Calls act(line, number) for each line, numbered from 1, after a byte order mark.
 void forLines(const std::string& text, const std::function<void(const std::string&, int)>& act)
 {
   int number = 0;
-  for (std::size_t begin = 0; begin < text.size();)
+  for (std::size_t begin = text.compare(0, 3, "\xef\xbb\xbf") == 0 ? 3 : 0; begin < text.size();)
   {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     act(text.substr(begin, end - begin), ++number);
@@ -160,7 +160,7 @@ std::vector<SparseSet> parseSparseText(const std::string& text, const std::strin
   return sets;
 }
 
-std::vector<Eigen::Vector2d> parsePoints(const std::string& text, const std::string& name)
+std::vector<Eigen::Vector2d> parsePoints(const std::string& text, const std::string& name, const SparseView& view)
 {
   std::vector<Eigen::Vector2d> points;
   forLines(text,
@@ -177,6 +177,13 @@ std::vector<Eigen::Vector2d> parsePoints(const std::string& text, const std::str
       {
         throw InputError(name, number,
           "is not a point (expected two numbers, found " + (count ? "nan" : std::to_string(values.size())) + ')');
+      }
+      if (!(values[0] >= 0 && values[1] >= 0 && values[0] <= view.width && values[1] <= view.height))
+      {
+        throw InputError(name, number,
+          "point (" + shortest(values[0]) + ", " + shortest(values[1]) + ") is outside the image of camera " +
+            quoted(view.camera) + " (expected 0 to " + std::to_string(view.width) + ", 0 to " +
+            std::to_string(view.height) + ')');
       }
       points.emplace_back(values[0], values[1]);
     });

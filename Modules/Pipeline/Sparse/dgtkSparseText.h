@@ -39,9 +39,11 @@ DGTKPIPELINE_EXPORT std::string sparseText(const SparseSet& set);
 /// without a name. Throws InputError with `name` and the line.
 DGTKPIPELINE_EXPORT std::vector<SparseSet> parseSparseText(const std::string& text, const std::string& name);
 
-/// Image points: the first two numbers of lines with two numbers, or with the six of sparseText(), separated by blanks
-/// or commas; empty lines and what follows a # do not count. Throws InputError with `name` and the line.
-DGTKPIPELINE_EXPORT std::vector<Eigen::Vector2d> parsePoints(const std::string& text, const std::string& name);
+/// Points of the image of a view, pixels: the first two numbers of lines with two numbers, or with the six of
+/// sparseText(), separated by blanks or commas; empty lines and what follows a # do not count. Throws InputError with
+/// `name` and the line, also for a point outside.
+DGTKPIPELINE_EXPORT std::vector<Eigen::Vector2d> parsePoints(
+  const std::string& text, const std::string& name, const SparseView& view);
 
 } // namespace dgtk
 

@@ -69,7 +69,8 @@ TEST(SparseText, OtherCommentsAreNoViews)
 
 TEST(SparseText, PointsAreThoseOfListsAndOfMatches)
 {
-  const std::vector<Eigen::Vector2d> points = parsePoints("# x y\n1, 2\n\n" + sparseText(exampleSet()), "x");
+  const std::vector<Eigen::Vector2d> points =
+    parsePoints("# x y\n1, 2\n\n" + sparseText(exampleSet()), "x", exampleSet().from);
   ASSERT_EQ(points.size(), 3u);
   EXPECT_EQ(points[0], Eigen::Vector2d(1, 2));
   EXPECT_EQ(points[1], exampleSet().matches[0].from);
@@ -95,7 +96,35 @@ TEST(SparseText, RefusalsNameFileAndLine)
     EXPECT_NE(message(std::string("# a list\n") + bad).find("list.txt:2"), std::string::npos) << bad;
   }
   EXPECT_EQ(message("1 2 3 4 5 0"), "accepted");
-  EXPECT_THROW(parsePoints("1 2 3", "x"), InputError);
-  EXPECT_THROW(parsePoints("nan 2", "x"), InputError);
+  EXPECT_THROW(parsePoints("1 2 3", "x", exampleSet().from), InputError);
+  EXPECT_THROW(parsePoints("nan 2", "x", exampleSet().from), InputError);
+}
+
+TEST(SparseText, APointBesideTheImageIsRefusedAsItIsWritten)
+{
+  for (const char* point : { "640.0000001 3", "-1e-07 3", "3 480.0000001", "3 -1e-07" })
+  {
+    try
+    {
+      parsePoints(std::string("0 0\n640 480\n") + point, "list.txt", exampleSet().from);
+      ADD_FAILURE() << point;
+    }
+    catch (const InputError& error)
+    {
+      std::string expected = std::string("list.txt:3: point (") + point;
+      expected.replace(expected.rfind(' '), 1, ", ");
+      EXPECT_EQ(
+        error.what(), expected + ") is outside the image of camera 'left @ door' (expected 0 to 640, 0 to 480)");
+    }
+  }
+}
+
+TEST(SparseText, AByteOrderMarkIsSkipped)
+{
+  const std::string mark = "\xef\xbb\xbf";
+  EXPECT_EQ(parsePoints(mark + "1 2", "x", exampleSet().from).at(0), Eigen::Vector2d(1, 2));
+  const std::vector<SparseSet> sets = parseSparseText(mark + sparseText(exampleSet()), "x");
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_TRUE(sets[0].from == exampleSet().from);
 }
 } // namespace

@@ -56,6 +56,19 @@ TEST(Slacks, RectifiedPairs)
   }
 }
 
+/// At map coordinates rounding is more than a part of the displacement.
+TEST(Slacks, RectifiedPairsFarFromTheOrigin)
+{
+  for (const double by : { 1e-7, 3e-9 })
+  {
+    HandMade made({ triangleModel({ -3e7, -3e7, 2 }, { 6e7, -3e7, 2 }, { 0, 6e7, 2 }) }, {}, { "a", "b" });
+    made.camera(0).t.y() = 5e6;
+    made.camera(1).t = { -0.1, 5e6 + by, 0 };
+    made.image("a/disparity/000000.npy", 1, [](int, int, int) { return 5; });
+    EXPECT_EQ(made.verify("epipolar", "").bad, by > 1e-8 ? 1u : 0u) << by;
+  }
+}
+
 /// Where left and right have changed sides one frame later, there is no disparity of then.
 TEST(Slacks, RectifiedPairsThatChangeSides)
 {
