@@ -63,7 +63,7 @@ Command reportCommand()
       { "--verification", "FILE", "", "what dgtk verify DATASET --json printed (default: DATASET/verification.json)" },
       { "--export", "DIR", "", "an export of the dataset, whose rounding is shown; may be repeated" },
       { "--samples", "FILE", "", "samples.json of the scenes: what was refused (default: DATASET/samples.json)" },
-      { "--threads", "N", "all processors", "threads to work with" },
+      { "--threads", "N", "0", "threads to work with (0: all processors)" },
       { "--quiet", "", "", "no progress and no messages" } },
     &runReport };
 }

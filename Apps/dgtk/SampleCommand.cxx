@@ -8,7 +8,6 @@
 #include "dgtkSampleRun.h"
 #include "dgtkSampler.h"
 
-
 namespace dgtk::app
 {
 
@@ -92,7 +91,7 @@ Command sampleCommand()
     { { "--output", "DIR", "", "folder of the scenes" },
       { "--samples", "A:B", "", "numbers of the samples, both included" },
       { "--seed", "N", "", "instead of the scene's seed" },
-      { "--threads", "N", "", "threads that work (default: those of the machine)" },
+      { "--threads", "N", "0", "threads to work with (0: all processors)" },
       { "--replace", "", "", "remove the samples of an earlier run that the folder holds" },
       { "--quiet", "", "", "no progress and no messages" }, noCacheOption },
     &runSample };

@@ -140,7 +140,7 @@ Command verifyCommand()
     { { "--export", "DIR", "", "read an export of the dataset back and compare it, instead of the dataset itself" },
       { "--check", "NAME,...", "all", "only these checks, by the names of the table", verification().checks(), true },
       { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
-      { "--threads", "N", "all processors", "threads to work with" } },
+      { "--threads", "N", "0", "threads to work with (0: all processors)" } },
     &runVerify };
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""dgtk run some thousand times: started and linked once, and forked before its main() for each run (Testing/Support/dgtkManyRuns.cxx)."""
+"""dgtk run some thousand times: started and linked once, and a fork of it runs its main() again and again (Testing/Support/dgtkManyRuns.cxx)."""
 import glob
 import os
 import queue
@@ -23,11 +23,12 @@ class ManyRuns:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, kind, *_):
         for server in self.all:
             server.stdin.close()
             server.stdout.close()
-            server.wait()
+        if any([server.wait() for server in self.all]) and kind is None:
+            raise AssertionError("the program ended after its last run otherwise than by itself")
 
     def _server(self):
         try:

@@ -13,7 +13,7 @@ HELP = {
         ("--output DIR", "folder of the scenes"),
         ("--samples A:B", "numbers of the samples, both included"),
         ("--seed N", "instead of the scene's seed"),
-        ("--threads N", "threads that work (default: those of the machine)"),
+        ("--threads N", "threads to work with (0: all processors) [0]"),
         ("--replace", "remove the samples of an earlier run that the folder holds"),
         ("--quiet", "no progress and no messages"),
         ("--no-cache", "read models anew, and keep none of them for other runs")]),
@@ -33,7 +33,7 @@ HELP = {
         ("--check NAME,...", "only these checks, by the names of the table [all]"),
         ("--json", "print one JSON object"),
         ("--write", "also write DIR/verification.json"),
-        ("--threads N", "threads to work with [all processors]")]),
+        ("--threads N", "threads to work with (0: all processors) [0]")]),
     "correspond": ("SCENE", "Finds where image points of one view are in another, and whether they are seen there.", [
         ("--from CAM[@FRAME]", "first view (default frame: the scene's first)"),
         ("--to CAM[@FRAME]", "second view"),
@@ -58,7 +58,7 @@ HELP = {
         ("--verification FILE", "what dgtk verify DATASET --json printed (default: DATASET/verification.json)"),
         ("--export DIR", "an export of the dataset, whose rounding is shown; may be repeated"),
         ("--samples FILE", "samples.json of the scenes: what was refused (default: DATASET/samples.json)"),
-        ("--threads N", "threads to work with [all processors]"),
+        ("--threads N", "threads to work with (0: all processors) [0]"),
         ("--quiet", "no progress and no messages")]),
     "list": ("[readers|layers|options|writers|cameras|exporters|gl|commands]", "Lists what this program can read, derive and write.", [
         ("--json", "as JSON, with all that is known of commands, layers and options")]),

@@ -9,7 +9,9 @@ import os
 import queue
 import re
 import shutil
+import signal
 import subprocess
+import unittest
 
 from harness import DGTK, SOURCE, Case, load_json, main
 from many_runs import ManyRuns
@@ -108,11 +110,24 @@ class Words(Case):
         self.assertEqual([free for free in FREE if not any(re.fullmatch(free, place) for place in unseen)], [], "is seen")
 
     def test_runs_are_those_of_a_program(self):
-        """Here the program is started once for all runs: none sees another, and all ends as it does by itself."""
-        words = ["verify", self.path("dataset"), "--check", CHECKS]
-        for arguments in (words, ["verify", self.path("missing")], ["--version"], ["no such command"], words):
+        """Here the program is started once for all runs: what those before it left changes none of them, and all ends as it does by itself."""
+        dataset, coco = self.path("dataset"), self.path("coco")
+        words = ["verify", dataset, "--check", CHECKS]
+        for arguments in (words, ["verify", self.path("missing")], ["--version"], ["no such command"], words,
+                          ["export", dataset, "--format", "coco", "-o", coco, "--replace"], ["verify", dataset, "--export", coco],
+                          # replaces itself by another start
+                          ["render", self.path("scene.json"), "-o", self.path("raster"), "--replace", "--gl", "osmesa", "--visibility", "raster"], words):
             done, alone = self.runs.run(*arguments), subprocess.run([DGTK, *arguments], capture_output=True)
             self.assertEqual((done.returncode, done.stdout, done.stderr), (alone.returncode, alone.stdout, alone.stderr))
+
+    @unittest.skipIf(os.environ.get("DGTK_TEST_SANITIZED"), "there each run is a process")
+    def test_a_run_that_ends_the_program_is_seen(self):
+        own = ManyRuns()
+        self.assertEqual(own.run("--version").returncode, 0)
+        with open(f"/proc/{own.all[0].pid}/task/{own.all[0].pid}/children", encoding="ascii") as file:
+            os.kill(int(file.read()), signal.SIGKILL)
+        with self.assertRaisesRegex(AssertionError, "otherwise than by itself"), own:
+            pass
 
     def test_no_reader_fails_otherwise(self):
         changes = [change for change in self.changes() if not change[0].endswith(".ply")][::3]

@@ -359,13 +359,14 @@ class Shards(Case):
         for index in (0, 2):
             self.shard(DEMO, self.path("parts"), index, 4)
         report = json.loads(self.dgtk("merge", self.path("parts"), "--json", status=1).stdout)
-        self.assertEqual((report["shares"], report["array"]), ({"4": "1,3"}, f"0-{min(len(report['missing']), 4) - 1}"))
-        last = int(report["array"].split("-")[1])
-        for task in range(last + 1):
+        self.assertEqual((report["missing"], report["shares"], report["array"]), ([1, 3, 5], {"4": "1,3"}, "0-2"))
+        for task in range(3):
             self.dgtk("render", DEMO, "-o", self.path("parts"), *OPTIONS, "--shard", "auto", environment={
-                "SLURM_ARRAY_TASK_ID": str(task), "SLURM_ARRAY_TASK_MIN": "0", "SLURM_ARRAY_TASK_MAX": str(last), "SLURM_ARRAY_TASK_COUNT": str(last + 1)})
+                "SLURM_ARRAY_TASK_ID": str(task), "SLURM_ARRAY_TASK_MIN": "0", "SLURM_ARRAY_TASK_MAX": "2", "SLURM_ARRAY_TASK_COUNT": "3"})
         self.dgtk("merge", self.path("parts"))
         self.assert_same_files(self.path("whole"), self.path("parts"))
+        self.shard(DEMO, self.path("two"), 0, 2)
+        self.assertIn("--array=0-1", self.dgtk("merge", self.path("two"), status=1).stderr, "no more tasks than there were")
 
     def test_launchers(self):
         options = ("--layers", "depth", "--size", "16x12", "--quiet", "--shard", "auto")

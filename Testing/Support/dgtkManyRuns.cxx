@@ -98,7 +98,7 @@ int run(char* program, std::string& words, char** environment)
   signal(SIGPIPE, SIG_DFL);
   for (std::string words; receive(requests, words);)
   {
-    const std::int32_t status = run(program, words, environment);
+    const std::int32_t status = run(program, words, environment) & 0xff;
     transferAll(write, answers, reinterpret_cast<const char*>(&status), sizeof status);
   }
   if (__gcov_dump != nullptr)
@@ -108,11 +108,8 @@ int run(char* program, std::string& words, char** environment)
   _exit(0); // destructors of all libraries would copy their pages
 }
 
-Worker started(char* program, char** environment)
+void start(Worker& worker, char* program, char** environment)
 {
-  Worker worker;
-  worker.output = memfd_create("output", MFD_CLOEXEC);
-  worker.errors = memfd_create("errors", MFD_CLOEXEC);
   int requests[2] = { -1, -1 }, answers[2] = { -1, -1 };
   if (pipe2(requests, O_CLOEXEC) == 0 && pipe2(answers, O_CLOEXEC) == 0)
   {
@@ -128,23 +125,19 @@ Worker started(char* program, char** environment)
   close(answers[1]);
   worker.requests = requests[1];
   worker.answers = answers[0];
-  return worker;
 }
 
-/// The status of a worker that has ended: of a signal, its number below 0.
-std::int32_t ended(Worker& worker)
+/// The status of a worker that ends now, if it has not: of a signal, its number below 0.
+std::int32_t statusOf(Worker& worker)
 {
-  close(worker.requests); // which ends it, where nothing has
+  close(worker.requests);
+  close(worker.answers);
   int status = 0;
   pid_t waited = -1;
   while (worker.process > 0 && (waited = waitpid(worker.process, &status, 0)) < 0 && errno == EINTR)
   {
   }
-  for (const int file : { worker.answers, worker.output, worker.errors })
-  {
-    close(file);
-  }
-  worker = {};
+  worker.process = -1;
   return waited < 0 ? -1000 : WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
@@ -177,17 +170,28 @@ int serve(int, char** arguments, char** environment)
   unsetenv("LD_BIND_NOW");
   signal(SIGPIPE, SIG_IGN); // a fork that is gone is found where it does not answer
   Worker worker;
+  worker.output = memfd_create("output", MFD_CLOEXEC);
+  worker.errors = memfd_create("errors", MFD_CLOEXEC);
   for (std::string words; receive(STDIN_FILENO, words);)
   {
+    int late = 0;
+    if (worker.process > 0 && waitpid(worker.process, &late, WNOHANG) != 0)
+    {
+      std::fprintf(stderr, "many runs: the program ended after a run, with status %d\n", late);
+      return 1;
+    }
     if (worker.process < 0)
     {
-      worker = started(arguments[0], environment);
+      start(worker, arguments[0], environment);
     }
     std::int32_t status = 0;
-    const bool ends = !send(worker.requests, words) ||
-                      !transferAll(read, worker.answers, reinterpret_cast<char*>(&status), sizeof status);
+    if (!send(worker.requests, words) ||
+        !transferAll(read, worker.answers, reinterpret_cast<char*>(&status), sizeof status))
+    {
+      status = statusOf(worker); // waits: a program that replaces itself goes on
+    }
     const std::string texts[] = { taken(worker.output), taken(worker.errors) };
-    const std::int32_t head[] = { ends ? ended(worker) : status, static_cast<std::int32_t>(texts[0].size()),
+    const std::int32_t head[] = { status, static_cast<std::int32_t>(texts[0].size()),
       static_cast<std::int32_t>(texts[1].size()) };
     const std::string answer = std::string(reinterpret_cast<const char*>(head), sizeof head) + texts[0] + texts[1];
     if (!transferAll(write, STDOUT_FILENO, answer.data(), answer.size()))
@@ -195,8 +199,7 @@ int serve(int, char** arguments, char** environment)
       return 1;
     }
   }
-  ended(worker);
-  return 0;
+  return worker.process > 0 && statusOf(worker) != 0;
 }
 } // namespace
 
