@@ -95,12 +95,20 @@ private:
     to.height = EnvironmentLight::width / 2;
     to.rgb.resize(std::size_t(to.width) * to.height * 3);
     const auto factor = float(intensity);
+    const bool enlarged = from.width < to.width && from.height <= to.height;
     for (int y = 0; y < to.height; ++y)
     {
       const int top = int(std::int64_t(y) * from.height / to.height);
       const int bottom = std::max(top + 1, int(std::int64_t(y + 1) * from.height / to.height));
       for (int x = 0; x < to.width; ++x)
       {
+        float* const texel = to.rgb.data() + (std::size_t(y) * to.width + x) * 3;
+        if (enlarged)
+        {
+          const Eigen::Vector3f between = bilinear(from, { (x + 0.5) / to.width, (y + 0.5) / to.height }) * factor;
+          std::copy_n(between.data(), 3, texel);
+          continue;
+        }
         const int left = int(std::int64_t(x) * from.width / to.width);
         const int right = std::max(left + 1, int(std::int64_t(x + 1) * from.width / to.width));
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -112,7 +120,7 @@ private:
           }
         }
         const Eigen::Vector3f mean = (sum / (double(bottom - top) * (right - left))).cast<float>() * factor;
-        std::copy_n(mean.data(), 3, to.rgb.data() + (std::size_t(y) * to.width + x) * 3);
+        std::copy_n(mean.data(), 3, texel);
       }
     }
     return to;

@@ -39,7 +39,7 @@ struct ShadedPoint
 /// Whether turnNormal() does anything.
 bool turnsNormals(const ShadedMaterial& material);
 
-/// Turns the normal as the material's pictures say.
+/// Turns the normal, which is that of the front, as the material's pictures say.
 void turnNormal(ShadedPoint& point);
 
 /// What the pictures of points show, before they are shaded.

@@ -138,7 +138,7 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   const Eigen::Vector2d inside = t * d.along - from.along;
   const double second = inside.x();
   const double third = inside.y();
-  const bool front = d.off * triangle.side < 0; // what is seen from behind has its normal turned
+  const bool front = d.off * triangle.side < 0;
   const ShadedMaterial& material = *triangle.material;
 
   point.object = triangle.hit.object;
@@ -153,7 +153,7 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   }
   const Float4 normal =
     normalized(triangle.shading + triangle.shadingSecond * float(second) + triangle.shadingThird * float(third));
-  point.normal = front ? normal : -normal;
+  point.normal = normal;
   point.tint = tintOf(triangle, second, third);
   if (this->Shadows)
   {
@@ -188,6 +188,7 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
       turnNormal(point);
     }
   }
+  point.normal = front ? point.normal : -point.normal;
 }
 
 /// Off the flat triangle to where the corners' tangent planes are: shadows end where smooth shading does (Hanika 2021,

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace dgtk::import
 {
@@ -141,6 +142,20 @@ void readMaps(const aiMaterial& from, Material& to)
   to.occlusionStrength = std::clamp(ofPicture(from, "$tex.strength", aiTextureType_LIGHTMAP, 1), 0.0, 1.0);
 }
 
+/// Whether a picture that is read wants its texels, not what is between them.
+bool isNearest(const aiMaterial& from)
+{
+  constexpr int nearest = 9728; // of OpenGL, as the file has it
+  const aiTextureType read[] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE, aiTextureType_NORMALS,
+    aiTextureType_UNKNOWN, aiTextureType_EMISSIVE, aiTextureType_LIGHTMAP };
+  return std::any_of(std::begin(read), std::end(read),
+    [&from](aiTextureType type)
+    {
+      int filter = 0;
+      return from.Get("$tex.mappingfiltermag", type, 0, filter) == aiReturn_SUCCESS && filter == nearest;
+    });
+}
+
 void readAlpha(const aiMaterial& from, Material& to)
 {
   aiString mode;
@@ -239,6 +254,13 @@ void convertMaterials(const aiScene& from, bool gltf, Scene& to)
   for (unsigned i = 0; i < from.mNumMaterials; ++i)
   {
     to.materials.push_back(converted(*from.mMaterials[i], gltf));
+  }
+  if (gltf && std::any_of(from.mMeshes, from.mMeshes + from.mNumMeshes,
+                [&from](const aiMesh* mesh) {
+                  return mesh->mMaterialIndex < from.mNumMaterials && isNearest(*from.mMaterials[mesh->mMaterialIndex]);
+                }))
+  {
+    to.warnings.emplace_back("pictures whose magFilter is NEAREST are interpolated between their texels all the same");
   }
   for (unsigned i = 0; i < from.mNumTextures; ++i)
   {

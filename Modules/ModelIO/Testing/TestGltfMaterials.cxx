@@ -174,6 +174,13 @@ TEST(Gltf, SamplersSayHowPicturesGoOn)
   ASSERT_TRUE(texture(m.texture).image);
   ASSERT_TRUE(texture(m.emissionMap).image);
   EXPECT_EQ(texture(m.emissionMap).image->rgba[0], 255);
+  const std::string warning = "pictures whose magFilter is NEAREST are interpolated between their texels all the same";
+  EXPECT_EQ(std::count(model->warnings.begin(), model->warnings.end(), warning), 1);
+  maker.json["samplers"][1]["magFilter"] = 9729;
+  EXPECT_THAT(readBytes("glb", maker.glb())->warnings, testing::Not(testing::Contains(warning)));
+  maker.json["samplers"][1]["magFilter"] = 9728;
+  maker.json["textures"][1]["sampler"] = 0; // nothing uses it
+  EXPECT_THAT(readBytes("glb", maker.glb())->warnings, testing::Not(testing::Contains(warning)));
 }
 
 TEST(Gltf, AlphaOfAnEmbeddedPicture)

@@ -316,11 +316,10 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   }
   declarations += "const float dgtkWorldAmbient = " + shortest(worldAmbient) + ";\n" + surfaceDeclarations(variant);
   put(fragment, "//VTK::ValuePass::Dec", declarations);
-  // Everything is two-sided: the normal points to where the surface is seen from.
+  // Everything is two-sided: the normal of the front, as pictures turn it, points to where it is seen from then.
   put(fragment, "//VTK::Normal::Impl",
-    "  vec3 normalVC = normalVCVSOutput * inversesqrt(max(dot(normalVCVSOutput, normalVCVSOutput), 1e-30));\n"
-    "  if (gl_FrontFacing == (dgtkDraw.y > 0.5)) { normalVC = -normalVC; }\n" +
-      perturbedNormal(variant));
+    "  vec3 normalVC = normalVCVSOutput * inversesqrt(max(dot(normalVCVSOutput, normalVCVSOutput), 1e-30));\n" +
+      perturbedNormal(variant) + "  if (gl_FrontFacing == (dgtkDraw.y > 0.5)) { normalVC = -normalVC; }\n");
   std::string light = lighting(variant);
   const bool ownEmission = variant.emissionMap && !variant.physical;
   if (ownEmission)

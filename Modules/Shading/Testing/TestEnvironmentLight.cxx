@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -166,7 +167,29 @@ TEST(EnvironmentLight, EachTexelIsTheMeanOfItsPart)
   }
 }
 
-// A picture of half the size, of which each texel is repeated: a texel more or less is 2 pi / 256.
+// Texel i has red 1 and green i: between the middles of the outer ones green grows evenly along rows and columns.
+TEST(EnvironmentLight, SmallPicturesAreInterpolated)
+{
+  RadianceImage image{ 4, 2, {} };
+  for (int i = 0; i < 8; ++i)
+  {
+    image.rgb.insert(image.rgb.end(), { 1, float(i), 0 });
+  }
+  const EnvironmentLight light = environmentLight(image, 0.5);
+  for (int x = 70; x < 440; x += 37)
+  {
+    for (int y = 3; y < 256; y += 23)
+    {
+      const double across = (x + 0.5) / 128 - 0.5;
+      const double down = std::clamp((y + 0.5) / 128 - 0.5, 0.0, 1.0);
+      const Eigen::Vector3d found = light.reflectedFrom(towards((x + 0.5) / 512, (y + 0.5) / 256), 0);
+      EXPECT_NEAR(found.x(), 0.5, 1e-6);
+      EXPECT_NEAR(found.y(), 0.5 * (across + 4 * down), 1e-4) << x << ' ' << y;
+    }
+  }
+}
+
+// A picture of half the size: a texel more or less is 2 pi / 256.
 TEST(EnvironmentLight, RougherSurfacesSeeWiderLobes)
 {
   const auto slope = [](const Eigen::Vector3d& d) { return 0.6 * d.x() + 0.48 * d.y() + 0.64 * d.z(); };
