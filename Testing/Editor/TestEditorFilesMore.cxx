@@ -4,7 +4,9 @@
 
 #include "dgtkMainWindow.h"
 #include "dgtkModelReader.h"
+#include "dgtkRenderDialog.h"
 #include "dgtkSceneDocument.h"
+#include "dgtkSceneViews.h"
 
 #include <QAction>
 #include <QCheckBox>
@@ -166,6 +168,13 @@ void TestEditorFiles::savingAsksAboutWhatItDestroys()
   this->write("box.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
   this->action("show.colour")->trigger();
   QVERIFY2(log->toPlainText().contains(warning), qPrintable(log->toPlainText()));
+  emit this->Window->findChild<dgtk::SceneViews*>()->lookedThrough({});
+  QCOMPARE(log->toPlainText().count(warning), 2);
+  this->action("render")->trigger();
+  auto* const rendering = this->Window->findChild<dgtk::RenderDialog*>();
+  emit rendering->started();
+  QCOMPARE(log->toPlainText().count(warning), 3);
+  rendering->close();
 }
 
 void TestEditorFiles::everyFileIsAskedAbout()

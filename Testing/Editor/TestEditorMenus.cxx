@@ -120,7 +120,7 @@ void TestEditorMenus::lettersOfMenusDiffer()
   check(dgtk::DatasetViewer());
 }
 
-/// Of 800 x 600 pixels, in both languages.
+/// Of 800 x 600 pixels, in both languages: for the two widest.
 void TestEditorMenus::smallScreensHaveRoom()
 {
   const QSize room(788, 556);
@@ -130,7 +130,7 @@ void TestEditorMenus::smallScreensHaveRoom()
     QVERIFY2(room.expandedTo(least) == room,
       qPrintable(window.objectName() + QString(" %1 x %2").arg(least.width()).arg(least.height())));
   };
-  const auto allFit = [&](dgtk::MainWindow& window)
+  const auto bothFit = [&](dgtk::MainWindow& window)
   {
     window.show();
     untilQuiet();
@@ -138,10 +138,10 @@ void TestEditorMenus::smallScreensHaveRoom()
     window.findChild<QAction*>("correspondence")->trigger();
     fits(*window.findChild<QDialog*>("matchDialog"));
   };
-  allFit(*this->Window);
+  bothFit(*this->Window);
   const German german;
   dgtk::MainWindow window;
-  allFit(window);
+  bothFit(window);
 }
 
 void TestEditorMenus::tabStaysOnTheScreen()
@@ -150,10 +150,13 @@ void TestEditorMenus::tabStaysOnTheScreen()
   {
     this->Window->findChild<QDockWidget*>(front)->raise();
     untilQuiet();
-    this->Window->findChild<QWidget*>("truthLayer")->setFocus();
+    QWidget* const first = this->Window->findChild<QWidget*>("truthLayer");
+    first->setFocus();
     for (int i = 0; i < 12; ++i)
     {
+      QVERIFY(QApplication::focusWidget() && (i > 0) == (QApplication::focusWidget() != first));
       QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+      QVERIFY(QApplication::focusWidget() && QApplication::focusWidget()->parentWidget());
       QVERIFY2(!QApplication::focusWidget()->parentWidget()->visibleRegion().isEmpty(),
         qPrintable(QApplication::focusWidget()->objectName()));
     }
