@@ -207,6 +207,32 @@ TEST(CameraPath, NamesOfObjectsThatAreNotInTheSampleRefuseIt)
   }
 }
 
+// Outside of objects, lights and cameras a refusal has the scene's own word; a count that is not drawn is wrong always.
+TEST(CameraPath, NamesThatAreMissingElsewhere)
+{
+  const test::TemporaryFolder folder;
+  writeFile(folder.path("wall.obj"), "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3 4\n");
+  const auto draw = [&](const std::string& count, const std::string& more)
+  {
+    const std::string json = R"({"parameters": {"n": 0, "d": {"integer": [0, 0]}}, "objects": [{"name": "cup", "model":
+      "wall.obj", "count": )" +
+                             count + "}], " + more + '}';
+    Sampler(RandomScene::ofText(json, folder.path())).draw(0);
+  };
+  const std::string fog = R"("fog": {"color": {"keys": [{"frame": 0, "value": {"centerOf": "cup"}}]}})";
+  const std::string lookAt = R"("cameras": [{"name": "a", "eye": [9, 9, 9], "lookAt": "cup"}])";
+  for (const char* drawn : { R"({"integer": [0, 0]})", R"("$d")" })
+  {
+    const std::string why = "'cup' has no instance in this sample";
+    EXPECT_EQ(test::thrownBy<SampleRefused>([&] { draw(drawn, fog); }), "fog: " + why);
+    EXPECT_EQ(test::thrownBy<SampleRefused>([&] { draw(drawn, lookAt); }), "cameras/a/lookAt: " + why);
+  }
+  for (const char* fixed : { "0", R"("$n")" })
+  {
+    EXPECT_THROW(draw(fixed, lookAt), InputError) << fixed;
+  }
+}
+
 TEST(CameraPath, PointsOfACurveAreApart)
 {
   const auto refusal = [](const std::string& points)

@@ -94,7 +94,7 @@ private:
   std::map<std::string, const JsonNode*> Objects;              ///< by name
   std::map<std::string, std::string> Shown;                    ///< paths of objects, by name
   std::map<std::string, std::pair<Drawn, std::size_t>> Counts; ///< of counted objects; 0: not counted
-  std::set<std::string> Varying;                               ///< those whose count is not a number in the file
+  std::set<std::string> Varying;                               ///< those whose count is drawn
   std::vector<std::size_t> Instances;                          ///< of each object of the file
 };
 

@@ -19,6 +19,15 @@ namespace
 {
 constexpr Range counts{ 0, 100000, false, false, "a whole number from 0 to 100000" };
 constexpr std::size_t notCounted = std::size_t(-1);
+
+/// Whether a count is random, or a parameter that is.
+bool isDrawn(const JsonNode& count, const JsonNode& root)
+{
+  const JsonNode* const parameters = root.find("parameters");
+  const bool named = count.type == JsonNode::Type::String && parameters != nullptr;
+  const JsonNode* const value = named ? parameters->find(count.text.substr(count.text.empty() ? 0 : 1)) : &count;
+  return value != nullptr && value->type != JsonNode::Type::Number;
+}
 } // namespace
 
 std::string SampleExpansion::nameOf(const JsonNode& item, const At& at) const
@@ -57,7 +66,7 @@ std::size_t SampleExpansion::countOf(const std::string& name)
     drawn = Drawn::Now; // parents in a circle are refused by whoever reads the plain scene
     const std::string parent = parentOf(*item->second);
     count = this->countOf(parent);
-    if (own != nullptr ? own->type != JsonNode::Type::Number : this->Varying.count(parent) != 0)
+    if (own != nullptr ? isDrawn(*own, this->Scene.document().root) : this->Varying.count(parent) != 0)
     {
       this->Varying.insert(name);
     }

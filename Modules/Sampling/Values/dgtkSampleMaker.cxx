@@ -44,11 +44,11 @@ void SampleMaker::fail(const JsonNode& node, const std::string& path, const std:
 std::string SampleMaker::pathOf(const std::string& shown) const
 {
   const std::size_t dot = shown.find("].");
-  if (dot == std::string::npos)
+  const std::string list = shown.substr(0, shown.find_first_of(".["));
+  if (dot == std::string::npos || (list != "objects" && list != "lights" && list != "cameras"))
   {
-    return shown.substr(0, shown.find('.'));
+    return list;
   }
-  const std::string list = shown.substr(0, shown.find('['));
   const std::size_t index = std::stoul(shown.substr(list.size() + 1));
   const JsonNode* const items = this->Tree.find(list); // without cameras
   const JsonNode* const name = items == nullptr ? nullptr : items->children.at(index).find("name");

@@ -154,15 +154,18 @@ void aimAtNames(JsonNode& item, const std::string& key)
 
 void aimPathAtNames(JsonNode& path)
 {
-  for (const char* kind : { "orbit", "walk", "spline" })
+  if (JsonNode* const orbit = memberOf(path, "orbit"))
   {
-    if (JsonNode* const one = memberOf(path, kind))
-    {
-      aimAtNames(*one, "center");
-      aimAtNames(*one, "start");
-      std::vector<JsonNode>& points = itemsOf(*one, "points");
-      std::for_each(points.begin(), points.end(), aim);
-    }
+    aimAtNames(*orbit, "center");
+  }
+  if (JsonNode* const walk = memberOf(path, "walk"))
+  {
+    aimAtNames(*walk, "start");
+  }
+  if (JsonNode* const spline = memberOf(path, "spline"))
+  {
+    std::vector<JsonNode>& points = itemsOf(*spline, "points");
+    std::for_each(points.begin(), points.end(), aim);
   }
 }
 
