@@ -30,6 +30,11 @@ const std::atomic<bool>& catchInterrupts()
   action.sa_handler = &onInterrupt;
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangUp = {};
+  if (::sigaction(SIGHUP, nullptr, &hangUp) == 0 && hangUp.sa_handler != SIG_IGN) // not below nohup
+  {
+    ::sigaction(SIGHUP, &action, nullptr);
+  }
   ::sigaction(SIGUSR1, &action, nullptr); // schedulers say so that time is nearly over
   return interrupted;
 }

@@ -14,7 +14,7 @@
 namespace dgtk::app
 {
 
-/// From now on Ctrl-C and SIGTERM set the flag; a second one ends the program at once.
+/// From now on Ctrl-C, SIGTERM and SIGHUP set the flag; a second one ends the program at once.
 const std::atomic<bool>& catchInterrupts();
 
 struct FrameSteps

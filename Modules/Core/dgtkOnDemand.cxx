@@ -30,7 +30,8 @@ const void* callsOnDemand(const char* library)
   void* const calls = handle != nullptr ? ::dlsym(handle, (std::string(library) + "Calls").c_str()) : nullptr;
   if (calls == nullptr)
   {
-    throw MachineError("the library " + file + " is missing or cannot be loaded");
+    const char* const reason = ::dlerror();
+    throw MachineError("the library " + file + " cannot be loaded: " + (reason != nullptr ? reason : "out of memory"));
   }
   return reinterpret_cast<const void* (*)()>(calls)();
 }

@@ -227,7 +227,10 @@ RayDevice::RayDevice()
 {
   if (!this->Handle)
   {
-    throw MachineError("Embree does not start (error " + std::to_string(int(embree().GetDeviceError(nullptr))) + ")");
+    const RTCError error = embree().GetDeviceError(nullptr);
+    throw MachineError(error == RTC_ERROR_OUT_OF_MEMORY
+                         ? "the memory of this machine is not enough for the ray tracer"
+                         : "Embree does not start (error " + std::to_string(int(error)) + ")");
   }
 }
 

@@ -134,6 +134,15 @@ class Machine(Case):
         self.assert_same_files(self.path("free"), self.path("usual"))
         self.assert_same_files(self.path("free"), self.path("few"))
 
+    def test_a_machine_without_dev_null(self):
+        """Its programs are there: they are not to blame."""
+        inside = ["unshare", "--map-root-user", "--mount", "sh", "-c", 'mount -t tmpfs none /dev && exec "$@"', "sh"]
+        if subprocess.run([*inside, "true"], capture_output=True).returncode != 0:
+            self.skipTest("no folder of devices of its own")
+        model = os.path.join(os.path.dirname(SCENES), "Models", "windmill.gltf")
+        done = subprocess.run([*inside, DGTK, "info", model], capture_output=True, text=True, env={**os.environ, "DGTK_CACHE": "0"})
+        self.assertEqual((done.returncode, done.stderr), (4, "dgtk: /dev/null: cannot be opened: No such file or directory\n"))
+
     def test_no_opengl(self):
         broken = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent", "DISPLAY": ""}
         done = self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("x"), "--quiet", "--gl", "egl",

@@ -36,7 +36,7 @@ class Resume(Case):
 
     def test_interrupt_and_kill(self):
         self.dgtk("render", SCENE, "-o", self.path("whole"), *OPTIONS)
-        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGKILL):
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1, signal.SIGKILL):
             with self.subTest(how):
                 folder = self.path(how.name)
                 status, errors = self.interrupt(folder, how)
@@ -51,6 +51,21 @@ class Resume(Case):
                 self.assert_same_files(self.path("whole"), folder)
                 kept = [n for n, t in before.items() if os.stat(os.path.join(folder, n)).st_mtime_ns == t]
                 self.assertGreater(len(kept), 0, "nothing was kept")
+
+    def test_below_nohup_a_run_goes_on(self):
+        command = ["nohup", DGTK, "render", SCENE, "-o", self.path("out"), *OPTIONS]
+        with ended(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)) as process:
+            while process.poll() is None and not os.path.isdir(self.path("out", "Camera0", "color")):
+                time.sleep(0.002)
+            process.send_signal(signal.SIGHUP)
+            self.assertEqual(process.wait(timeout=300), 0)
+
+    def test_two_writers_of_a_file(self):
+        with open(self.write("x.pov.partial", "half"), encoding="ascii") as other:
+            fcntl.flock(other, fcntl.LOCK_EX)
+            self.refused("convert", SCENE, self.path("x.pov"), status=75, says=self.path("x.pov") + ": another process is writing it")
+        self.dgtk("convert", SCENE, self.path("x.pov"))
+        self.assertFalse(os.path.exists(self.path("x.pov.partial")))
 
     def test_two_runs_in_a_folder(self):
         """The later one may be tried again, when the first has ended."""

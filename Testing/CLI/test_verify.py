@@ -455,9 +455,18 @@ class Refusals(Case):
         self.write("manifest.json", "{")
         self.refused("verify", self.folder, status=3, says="manifest.json")
 
+    def test_what_the_machine_lacks_is_no_breach(self):
+        scene = self.write("scene.json", json.dumps({
+            "objects": [{"name": "a", "model": os.path.join(os.path.dirname(SCENES), "Models", "windmill.gltf")}],
+            "cameras": [{"name": "c", "eye": [0, 0, 50], "lookAt": [0, 0, 0], "width": 16, "height": 12}]}))
+        self.dgtk("render", scene, "-o", self.path("set"), "--layers", "depth", "--quiet")
+        self.dgtk("verify", self.path("set"), "--threads", "0")
+        told = self.dgtk("verify", self.path("set"), status=4, environment={"DGTK_IMPORT": "/none", "DGTK_CACHE": "0"})
+        self.assertEqual((told.stdout, told.stderr), ("", "dgtk: /none: is not a program (DGTK_IMPORT names dgtk-import)\n"))
+
     def test_usage(self):
         self.refused("verify", status=2)
-        self.refused("verify", self.folder, "--threads", "0", status=2, says="--threads")
+        self.refused("verify", self.folder, "--threads", "-1", status=2, says="--threads")
         for option in (("--check", "depth"), ("--write",)):
             self.refused("verify", self.folder, "--export", self.path("export"), *option, status=2, says="--export: an export has neither")
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFile.h"
 
+#include "dgtkAgainError.h"
 #include "dgtkError.h"
 #include "dgtkWorkTime.h"
 
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -26,6 +28,10 @@ std::string readFile(const std::string& path, std::uint64_t limit)
   struct stat info = {};
   if (!file || ::fstat(file.number(), &info) != 0)
   {
+    if (errno == EMFILE || errno == ENFILE || errno == ENOMEM)
+    {
+      throw MachineError(path + ": cannot be read: " + std::strerror(errno));
+    }
     throw InputError(path, std::string("cannot be read: ") + std::strerror(errno));
   }
   if (!S_ISREG(info.st_mode))
@@ -106,6 +112,51 @@ bool writeAllAt(int descriptor, std::uint64_t offset, const void* data, std::siz
   return true;
 }
 
+/// Whether another process, or another writer of this one, has the file. A file system without locks knows of nobody.
+bool isLocked(const FileDescriptor& file)
+{
+  return ::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+bool isUnder(const FileDescriptor& file, const Folder& folder, const std::string& name)
+{
+  const FileDescriptor found = folder.open(name, O_PATH);
+  struct stat own = {};
+  struct stat other = {};
+  return found && ::fstat(file.number(), &own) == 0 && ::fstat(found.number(), &other) == 0 &&
+         own.st_dev == other.st_dev && own.st_ino == other.st_ino;
+}
+
+/// One who found the file before it was locked may have removed it.
+bool isGone(const FileDescriptor& file, const Folder& folder, const std::string& name)
+{
+  struct stat info = {};
+  return ::fstat(file.number(), &info) == 0 && info.st_nlink == 0 && !isUnder(file, folder, name);
+}
+
+/// Removes what stands where a file is to be written, but not what somebody writes. False when somebody does.
+bool removeLeft(const Folder& folder, const std::string& name)
+{
+  const bool file = folder.look(name) == EntryKind::File;
+  const FileDescriptor left = file ? folder.open(name, O_RDWR | O_NONBLOCK) : FileDescriptor();
+  if (left && (isLocked(left) || !isUnder(left, folder, name)))
+  {
+    return false;
+  }
+  folder.remove(name); // while it is locked
+  return true;
+}
+
+/// A device, a pipe or a socket, or a link to a descriptor, as /dev/stdout is.
+bool isNoFile(const FilePlace& place)
+{
+  namespace fs = std::filesystem;
+  const EntryKind kind = place.folder().look(place.name());
+  std::error_code code;
+  return kind == EntryKind::Other ||
+         (kind == EntryKind::Link && fs::read_symlink(place.path(), code).string().rfind("/proc/", 0) == 0);
+}
+
 std::string folderOf(const std::string& path)
 {
   const std::size_t slash = path.rfind('/');
@@ -131,16 +182,31 @@ AtomicFile::AtomicFile(const FilePlace& place)
   : Place(place)
   , Temporary(partialName(place.path()))
 {
+  const Folder& folder = place.folder();
   const std::string name = partialName(place.name());
-  this->Descriptor = place.folder().open(name, O_RDWR | O_CREAT | O_EXCL);
+  const auto create = [&] { this->Descriptor = folder.open(name, O_RDWR | O_CREAT | O_EXCL); };
+  create();
+  bool ours = true;
   if (!this->Descriptor && errno == EEXIST)
   {
-    place.folder().remove(name);
-    this->Descriptor = place.folder().open(name, O_RDWR | O_CREAT | O_EXCL);
+    ours = removeLeft(folder, name);
+    if (ours)
+    {
+      create();
+    }
+  }
+  if (!ours || (this->Descriptor && (isLocked(this->Descriptor) || isGone(this->Descriptor, folder, name))))
+  {
+    throw AgainError(this->path() + ": another process is writing it");
   }
   if (!this->Descriptor)
   {
     this->fail("cannot be written");
+  }
+  if (place.name().find('/') == std::string::npos && isNoFile(place)) // somebody's own word
+  {
+    folder.remove(name);
+    throw MachineError(this->path() + ": cannot be written: is not a file");
   }
   this->Created = this->identityOf(this->Descriptor);
   this->Kept = keptFiles.fetch_add(1) < mostKeptFiles();
@@ -155,7 +221,6 @@ AtomicFile::~AtomicFile()
 {
   if (this->Open)
   {
-    this->close();
     try
     {
       this->Place.folder().remove(partialName(this->Place.name()));
@@ -164,6 +229,7 @@ AtomicFile::~AtomicFile()
     {
       // nothing that a destructor could do
     }
+    this->close();
   }
 }
 
@@ -229,9 +295,14 @@ void AtomicFile::finish(bool durably)
 {
   const WorkTime write(WorkStage::Write);
   const std::string partial = partialName(this->Place.name());
-  FileDescriptor file = this->Kept ? std::move(this->Descriptor) : durably ? this->reopened() : FileDescriptor();
+  // closing tells whether the file is whole; it stays locked until it has its name
+  FileDescriptor file(this->Kept ? ::fcntl(this->Descriptor.number(), F_DUPFD_CLOEXEC, 0) : -1);
+  if (!file)
+  {
+    file = this->Kept ? std::move(this->Descriptor) : this->reopened();
+  }
   constexpr std::uint64_t large = std::uint64_t(1) << 18; ///< what is smaller costs more than it takes
-  if (!durably && file && this->Position >= large)
+  if (!durably && this->Position >= large)
   {
     ::sync_file_range(file.number(), 0, 0, SYNC_FILE_RANGE_WRITE); // on its way, for whoever waits for all files
   }

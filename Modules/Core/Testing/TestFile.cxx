@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAgainError.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
@@ -11,14 +12,39 @@
 #include <atomic>
 #include <deque>
 #include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <thread>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 using dgtk::test::contentsOf;
 using dgtk::test::TemporaryFolder;
+
+namespace
+{
+/// How many descriptors the process may have while it lives.
+class DescriptorLimit
+{
+public:
+  explicit DescriptorLimit(rlim_t most)
+  {
+    EXPECT_EQ(::getrlimit(RLIMIT_NOFILE, &this->Before), 0);
+    const struct rlimit limit = { most, this->Before.rlim_max };
+    EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  }
+  ~DescriptorLimit() { ::setrlimit(RLIMIT_NOFILE, &this->Before); }
+  DescriptorLimit(const DescriptorLimit&) = delete;
+  DescriptorLimit& operator=(const DescriptorLimit&) = delete;
+
+private:
+  struct rlimit Before = {};
+};
+} // namespace
 
 TEST(Hash, PublishedVectors) // FIPS 180-4 examples
 {
@@ -92,10 +118,7 @@ TEST(AtomicFile, ReplacesLinksAndWritesThroughNone)
 TEST(AtomicFile, MoreTogetherThanDescriptors)
 {
   constexpr rlim_t few = 64;
-  struct rlimit before = {};
-  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
-  const struct rlimit limit = { few, before.rlim_max };
-  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  const DescriptorLimit limit(few);
   const TemporaryFolder folder;
   std::deque<dgtk::AtomicFile> files;
   for (std::size_t i = 0; i < 3 * few; ++i)
@@ -118,7 +141,82 @@ TEST(AtomicFile, MoreTogetherThanDescriptors)
   {
     EXPECT_EQ(contentsOf(folder.path(std::to_string(i))), "One two three");
   }
-  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+}
+
+TEST(AtomicFile, IsWrittenByOneAtATime)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x");
+  {
+    dgtk::AtomicFile first(path);
+    first.write("first");
+    EXPECT_EQ(dgtk::test::thrownBy<dgtk::AgainError>([&] { dgtk::writeFile(path, ""); }),
+      path + ": another process is writing it");
+    first.commit();
+  }
+  EXPECT_EQ(contentsOf(path), "first");
+  dgtk::AtomicFile(path).write("given up");
+  dgtk::writeFile(path, "second");
+  EXPECT_EQ(contentsOf(path), "second");
+}
+
+TEST(AtomicFile, ReplacesWhatWasLeftButNotWhatIsLocked)
+{
+  const TemporaryFolder folder;
+  const std::string partial = folder.path("x.partial");
+  std::ofstream(partial) << "of one who was killed";
+  {
+    const dgtk::FileDescriptor other(::open(partial.c_str(), O_RDONLY | O_CLOEXEC));
+    ASSERT_EQ(::flock(other.number(), LOCK_EX | LOCK_NB), 0);
+    EXPECT_THROW(dgtk::writeFile(folder.path("x"), "x"), dgtk::AgainError);
+    EXPECT_EQ(contentsOf(partial), "of one who was killed");
+  }
+  dgtk::writeFile(folder.path("x"), "x");
+  EXPECT_EQ(contentsOf(folder.path("x")), "x");
+  EXPECT_FALSE(std::filesystem::exists(partial));
+}
+
+TEST(AtomicFile, GivesItsNameToNothingElse)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x");
+  const DescriptorLimit limit(64);
+  std::deque<dgtk::AtomicFile> kept;
+  for (int i = 0; i < 32; ++i)
+  {
+    kept.emplace_back(folder.path(std::to_string(i)));
+  }
+  dgtk::AtomicFile file(path); // closed between writes, and not locked then
+  file.write("whole");
+  dgtk::writeFile(path, "of another one");
+  std::ofstream(folder.path("x.partial")) << "half";
+  EXPECT_THROW(file.commit(), dgtk::MachineError);
+  EXPECT_EQ(contentsOf(path), "of another one");
+}
+
+TEST(AtomicFile, ReplacesNoDeviceAndNoPipe)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0600), 0);
+  fs::create_symlink("/proc/self/fd/1", folder.path("stdout"));
+  for (const char* name : { "pipe", "stdout" })
+  {
+    const fs::file_type before = fs::symlink_status(folder.path(name)).type();
+    EXPECT_EQ(dgtk::test::thrownBy<dgtk::MachineError>([&] { dgtk::writeFile(folder.path(name), "x"); }),
+      folder.path(name) + ": cannot be written: is not a file");
+    EXPECT_EQ(fs::symlink_status(folder.path(name)).type(), before) << name;
+    EXPECT_FALSE(fs::exists(folder.path(name + std::string(".partial"))));
+  }
+}
+
+TEST(ReadFile, WithoutDescriptorsTheMachineIsToBlame)
+{
+  const TemporaryFolder folder;
+  dgtk::writeFile(folder.path("x"), "x");
+  const DescriptorLimit none(0);
+  EXPECT_EQ(dgtk::test::thrownBy<dgtk::MachineError>([&] { dgtk::readFile(folder.path("x")); }),
+    folder.path("x") + ": cannot be read: Too many open files");
 }
 
 TEST(ReadFile, RefusesFoldersAndMissingFiles)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkOnDemand.h"
 #include "dgtkSystem.h"
 #include "dgtkTestSupport.h"
 
@@ -28,6 +30,14 @@ TEST(System, ThreadsOfTheMachine)
   EXPECT_GE(machineThreads(), 1);
   EXPECT_EQ(machineThreads(1), 1);
   EXPECT_LE(machineThreads(2), 2);
+}
+
+TEST(System, WhyALibraryIsNotThere)
+{
+  const std::string said = thrownBy<MachineError>([] { callsOnDemand("dgtkNone"); });
+  EXPECT_EQ(said.rfind("the library libdgtkNone.so", 0), 0u) << said;
+  EXPECT_NE(said.find(" cannot be loaded: "), std::string::npos) << said;
+  EXPECT_NE(said.find("No such file or directory"), std::string::npos) << said;
 }
 
 namespace

@@ -36,6 +36,7 @@ fs::path libraryFolder()
 /// With default signals and nothing on its standard error.
 pid_t spawn(const std::vector<std::string>& command, int input, int output)
 {
+  constexpr const char* outlet = "/dev/null";
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   sigset_t defaults;
@@ -54,9 +55,9 @@ pid_t spawn(const std::vector<std::string>& command, int input, int output)
   }
   else
   {
-    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, outlet, O_WRONLY, 0);
   }
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 2, outlet, O_WRONLY, 0);
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setsigdefault(&attributes, &defaults);
   posix_spawnattr_setsigmask(&attributes, &none);
@@ -74,7 +75,9 @@ pid_t spawn(const std::vector<std::string>& command, int input, int output)
   posix_spawn_file_actions_destroy(&actions);
   if (problem != 0)
   {
-    throw MachineError(command.front() + ": cannot be started: " + std::strerror(problem));
+    const bool noOutlet = ::access(outlet, W_OK) != 0;
+    throw MachineError((noOutlet ? outlet : command.front()) + ": cannot be " + (noOutlet ? "opened: " : "started: ") +
+                       std::strerror(problem));
   }
   return child;
 }

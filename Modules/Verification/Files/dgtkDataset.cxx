@@ -85,6 +85,10 @@ void Dataset::readDocuments()
     {
       read(dgtk::Folder(this->Folder).fileAt(file));
     }
+    catch (const MachineError&)
+    {
+      throw;
+    }
     catch (const Error& error)
     {
       this->Problems.push_back({ file, error.what() });
