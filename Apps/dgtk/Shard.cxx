@@ -63,7 +63,8 @@ std::optional<RunShard> ofArray()
   const std::size_t count = variable("SLURM_ARRAY_TASK_COUNT").value_or((last - first) / step + 1);
   if (*task < first || (*task - first) % step != 0 || count != (last - first) / step + 1)
   {
-    throw UsageError("--shard auto: the array job has only some of its tasks; number them one after another, or say I/N");
+    throw UsageError(
+      "--shard auto: the array job has only some of its tasks; number them one after another, or say I/N");
   }
   return checked((*task - first) / step, count, " (SLURM_ARRAY_TASK_ID)");
 }

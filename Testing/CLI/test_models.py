@@ -57,7 +57,7 @@ class Models(Case):
         os.chmod(kept, 0)
         self.assertEqual(self.dgtk("info", model, "--json", environment=environment).stdout, plain)
         os.chmod(kept, 0o700)
-        self.assertEqual(self.dgtk("info", model, status=4, environment=dict(environment, DGTK_CACHE="much")).stderr,
+        self.assertEqual(self.dgtk("info", model, status=2, environment=dict(environment, DGTK_CACHE="much")).stderr,
                          "dgtk: DGTK_CACHE is not a number of MiB: 'much'\n")
 
     def test_every_model_renders(self):

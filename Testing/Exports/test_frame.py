@@ -187,7 +187,7 @@ class Frame(datasets.ExportCase):
         for share in ("1/3", "0/3", "1/3"):
             subprocess.run([*command, "-o", part, "--shard", share], check=True)
         self.assertEqual(set(self.rates(*command[2:-1], "-o", part, "--shard", "1/3")), {0}, "it was all there")
-        self.refused("merge", part, status=1, says=("blocks are missing", "--array=2"))
+        self.refused("merge", part, status=1, says=("10 of 30 blocks are missing", "shares 2 of 3; --array=0-2)"))
         self.assertFalse(os.path.exists(os.path.join(part, "export.json")))
         subprocess.run([*command, "-o", part, "--shard", "2/3"], check=True)
         blocks = os.path.join(part, ".dgtk-parts")
@@ -196,7 +196,7 @@ class Frame(datasets.ExportCase):
         with open(picture, "ab") as file:
             file.write(b"!")
         report = json.loads(self.dgtk("merge", part, "--json", status=1).stdout)
-        self.assertEqual((report["missing"], report["array"]), ([4, 6], {"3": "0-1"}))
+        self.assertEqual((report["missing"], report["shares"], report["array"]), ([4, 6], {"3": "0-1"}, "0-1"))
         done = self.refused("export", dataset, "--format", "yolo", "-o", part, "--shard", "0/3", status=2,
                             says=f"{part}: holds an unfinished run of another request, in parts; remove its .dgtk-parts, or name another folder")
         self.assertNotIn("--replace", done)

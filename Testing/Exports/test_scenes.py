@@ -116,7 +116,7 @@ class Scenes(datasets.ExportCase):
                 [file] = [os.path.join(base, name) for base, _, names in os.walk(os.path.join(shares, "s1")) for name in names if name.endswith(".hdf5")]
                 with open(file, "ab") as damaged:
                     damaged.write(b"!")
-                self.refused("merge", shares, status=1, says=("1 of 3 blocks", "--array=1"))
+                self.refused("merge", shares, status=1, says=("1 of 3 blocks", "shares 1 of 2; --array=0)"))
                 self.dgtk(*command, shares, "--shard", "1/2")
                 self.left_by_a_kill(os.path.join(shares, "s0"))
             with self.goes_at_once(os.path.join(shares, ".dgtk-parts")):

@@ -43,8 +43,8 @@ private:
 /// A file that appears under its name only when it is whole: it is written to a temporary name in the same folder
 /// and renamed by commit(). What stands under either name is replaced, never written through. Destroyed without
 /// commit(), it leaves nothing behind and what stood under the name before is untouched. Every failure (permission,
-/// full disk) is a MachineError that names the file. Any number can be written together: those beyond half of the
-/// descriptors that the process may have are opened for each write.
+/// full disk) is a MachineError that names the file, or an AgainError where another process writes it. Any number can
+/// be written together: those beyond half of the descriptors that the process may have are opened for each write.
 class DGTKCORE_EXPORT AtomicFile
 {
 public:
