@@ -2,6 +2,7 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkLongDocuments.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <system_error>
 
 namespace dgtk::app
 {
@@ -93,14 +93,7 @@ int runConvert(const Arguments& arguments)
   if (!pov)
   {
     const SceneDescription scene = readScene(from);
-    for (const std::string& file : { from, scene.resolve(scene.classFile) })
-    {
-      std::error_code code; // where one is not there
-      if (std::filesystem::equivalent(to, file, code))
-      {
-        throw UsageError(to + ": is one of the files that are read for it; name another file");
-      }
-    }
+    refuseInPlaceOf({ from, scene.resolve(scene.classFile) }, to);
     writeScene(scene, to);
     return 0;
   }

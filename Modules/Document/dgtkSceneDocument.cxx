@@ -166,15 +166,17 @@ bool SceneDocument::losesComments() const
   }
 }
 
-std::vector<std::string> SceneDocument::replacedModels() const
+std::vector<std::string> SceneDocument::takeReplacedModels()
 {
   std::vector<std::string> files;
   for (const std::string& file : modelFiles(this->Scene))
   {
     const auto read = this->Read.find(file);
-    if (read != this->Read.end() && read->second.isFile() && !(read->second == FileAge(file)))
+    const FileAge now(file);
+    if (read != this->Read.end() && read->second.isFile() && !(read->second == now))
     {
       files.push_back(file);
+      read->second = now;
     }
   }
   return files;

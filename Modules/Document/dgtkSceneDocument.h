@@ -50,8 +50,8 @@ public:
   bool isReplaced() const;
   /// Whether that file has comments, which saving removes.
   bool losesComments() const;
-  /// Files of the scene's models that are no longer what was read.
-  std::vector<std::string> replacedModels() const;
+  /// Files of the scene's models that have changed since they were read, or since this was asked last.
+  std::vector<std::string> takeReplacedModels();
   /// Scenes so far: another number, and other models, after clear(), install(), open() and recover().
   std::size_t opened() const { return this->Opened; }
   /// Called after every change of scene, path or modified().

@@ -24,6 +24,8 @@ constexpr double largestSplat = 3.5;
 constexpr double leastWeight = 1e-3;
 /// Depth that a step of one pixel on the surface is uncertain by, as a part of its length.
 constexpr double uncertainShare = 0.05;
+/// The same at a splat's edges, with a normal that is off by half a cell of the splat index, 1/8, and slant.
+constexpr double veilShare = 0.1;
 /// Square pixels: a splat seen flatter than this has no slope.
 constexpr double leastArea = 1e-3;
 
@@ -283,6 +285,7 @@ private:
 struct Fragment
 {
   std::size_t pixel;
+  std::array<int, 2> from; ///< pixel of the first view
   double depth;
   double slack;
   double weight;
@@ -318,8 +321,9 @@ public:
     }
   }
 
-  void colour(const Splat& splat, const WarpSample& sample)
+  void colour(const Splat& splat, const WarpSample& sample, const std::array<int, 2>& from)
   {
+    const double veilSlack = veilShare / uncertainShare * splat.slack;
     this->forPixels(splat, sample.rgba[3] < 255 ? splat.halfX : splat.farX,
       [&](std::size_t i, double weight, double depth)
       {
@@ -329,7 +333,7 @@ public:
         }
         if (sample.rgba[3] < 255)
         {
-          this->Veils.push_back({ i, depth, splat.slack, weight, sample.rgba });
+          this->Veils.push_back({ i, from, depth, veilSlack, weight, sample.rgba });
           return;
         }
         for (int c = 0; c < 3; ++c)
@@ -391,7 +395,15 @@ private:
     }
   }
 
+  /// Whether a sample is of the surface of which these are the farthest and the one before.
+  static bool sameSurface(const Fragment& farthest, const Fragment& before, const Fragment& next)
+  {
+    return next.pixel == before.pixel && next.from != farthest.from &&
+           next.depth + next.slack >= before.depth - before.slack;
+  }
+
   /// Lays what is not opaque over the rest, far to near; of the samples of one surface the one nearest to the centre.
+  /// Samples of one pixel of the first view are of two surfaces.
   void blendVeils()
   {
     std::stable_sort(this->Veils.begin(), this->Veils.end(),
@@ -401,8 +413,7 @@ private:
     {
       std::size_t best = first;
       std::size_t next = first + 1;
-      for (; next < this->Veils.size() && this->Veils[next].pixel == this->Veils[first].pixel &&
-             this->Veils[next].depth + this->Veils[next].slack >= this->Veils[first].depth - this->Veils[first].slack;
+      for (; next < this->Veils.size() && sameSurface(this->Veils[first], this->Veils[next - 1], this->Veils[next]);
            ++next)
       {
         best = this->Veils[next].weight > this->Veils[best].weight ? next : best;
@@ -449,7 +460,7 @@ WarpedImage warp(const WarpSource& source, const Reprojected& reprojection, cons
     {
       if (reprojection.splat(x, y, sample, splat))
       {
-        picture.colour(splat, sample);
+        picture.colour(splat, sample, { x, y });
       }
     });
   return picture.finish();

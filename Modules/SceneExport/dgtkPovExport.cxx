@@ -2,6 +2,7 @@
 #include "dgtkPovExport.h"
 
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkPovCamera.h"
 #include "dgtkPovLibrary.h"
 #include "dgtkPovLights.h"
@@ -246,10 +247,7 @@ PovResult writeScene(
   checkName(path);
   checkCount(state, path);
   const std::vector<std::string> inputs = inputsOf(state, options);
-  if (isOneOf(path, inputs))
-  {
-    throw UsageError(path + ": is one of the files that are read for it; name another file");
-  }
+  refuseInPlaceOf(inputs, path);
   PovResult result;
   PovImagesBeside images(path, inputs);
   const PovLightContext context = contextOf(state, view, options);

@@ -38,14 +38,6 @@ std::string pnmHeader(const char* kind, const Image& image)
 }
 } // namespace
 
-bool isOneOf(const std::string& path, const std::vector<std::string>& files)
-{
-  std::error_code code; // where one is not there
-  return std::filesystem::exists(path, code) &&
-         std::any_of(files.begin(), files.end(),
-           [&](const std::string& file) { return std::filesystem::equivalent(path, file, code); });
-}
-
 std::string povPpm(const Image& image, const Eigen::Vector3d& tint, bool cutOut)
 {
   const std::vector<std::uint8_t> filled = cutOut ? withoutHoles(image) : std::vector<std::uint8_t>();
@@ -111,8 +103,8 @@ int PovImagesBeside::number(const Image& image, const Eigen::Vector3d& tint, boo
   const auto [entry, isNew] = this->Numbers.try_emplace({ &image, tint.x(), tint.y(), tint.z(), cutOut }, 0);
   if (isNew)
   {
-    while (isOneOf(this->pathOf(colorEnd(this->Next)), this->Inputs) ||
-           isOneOf(this->pathOf(maskEnd(this->Next)), this->Inputs))
+    while (leadsToOneOf(this->pathOf(colorEnd(this->Next)), this->Inputs) ||
+           leadsToOneOf(this->pathOf(maskEnd(this->Next)), this->Inputs))
     {
       ++this->Next;
     }

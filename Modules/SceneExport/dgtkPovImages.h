@@ -51,8 +51,6 @@ private:
   std::vector<std::string> Files;
 };
 
-/// Whether a path leads to one of these files, which need not exist.
-bool isOneOf(const std::string& path, const std::vector<std::string>& files);
 /// Contents of a .ppm with the colours of a picture times `tint`, holes filled as in `withoutHoles()` if it is cut out.
 std::string povPpm(const Image& image, const Eigen::Vector3d& tint, bool cutOut);
 /// Contents of a .pgm: 255 where a texel is, 0 where it is missing.

@@ -16,6 +16,7 @@
 #include <QPlainTextEdit>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTimer>
 
 #include <algorithm>
 
@@ -26,6 +27,7 @@ namespace
 {
 constexpr std::uint64_t pictureBytes = std::uint64_t(256) << 20; // of all panes together
 constexpr int statusTime = 8000;
+constexpr int pause = 1000; // milliseconds until a folder is looked at again whose dataset is being replaced
 
 QString text(const std::string& name) { return QString::fromStdString(name); }
 } // namespace
@@ -35,14 +37,20 @@ PicturePane* DatasetViewer::activePane() const { return this->Grid->active(); }
 
 void DatasetViewer::openFolder(const QString& folder)
 {
+  this->Awaited.clear();
   this->statusBar()->showMessage(tr("Opening %1 ...").arg(folder));
   this->Loader->open(folder);
 }
 
 void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& dataset)
 {
+  const bool isAgain = this->Awaited == text(dataset->folder());
+  this->Awaited.clear();
   this->Dataset = dataset;
-  this->Ranges.clear();
+  if (!isAgain)
+  {
+    this->Ranges.clear();
+  }
   this->PointSources.clear();
   this->Sync->setCursor(std::nullopt);
   this->Sync->fitting = true;
@@ -54,6 +62,10 @@ void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& da
   this->setWindowTitle(tr("%1 - DGTk dataset").arg(QFileInfo(text(dataset->folder())).fileName()));
   this->setPaneCount(static_cast<int>(std::min<std::size_t>(4, dataset->layers().size())));
   this->chooseFirstLayers();
+  if (isAgain)
+  {
+    this->chooseAgain();
+  }
   this->enableActions(true);
   this->askAll();
   QString line = tr("Cameras: %1, frames: %2, layers: %3")
@@ -82,7 +94,13 @@ void DatasetViewer::leaveReplaced()
 {
   if (this->Dataset && this->Dataset->isReplaced())
   {
-    const QString folder = text(this->Dataset->folder());
+    this->Awaited = text(this->Dataset->folder());
+    this->AwaitedFrame = this->Frames->index();
+    this->AwaitedPanes.clear();
+    for (const PicturePane* pane : this->panes())
+    {
+      this->AwaitedPanes.emplace_back(pane->camera(), pane->layer());
+    }
     this->Dataset.reset();
     this->Frames->setCount(0);
     this->Pending.clear();
@@ -91,8 +109,19 @@ void DatasetViewer::leaveReplaced()
     this->Calibration->clear();
     this->Pages->setCurrentIndex(0);
     this->enableActions(false);
-    this->openFolder(folder);
+    this->Loader->open(this->Awaited);
   }
+}
+
+/// What was shown of the dataset that was replaced, where there is such a thing.
+void DatasetViewer::chooseAgain()
+{
+  this->setPaneCount(static_cast<int>(this->AwaitedPanes.size()));
+  for (std::size_t i = 0; i < this->AwaitedPanes.size(); ++i)
+  {
+    this->panes()[i]->choose(this->AwaitedPanes[i].first, this->AwaitedPanes[i].second);
+  }
+  this->Frames->setIndex(std::min(this->AwaitedFrame, this->Frames->last()));
 }
 
 void DatasetViewer::chooseFirstLayers()
@@ -163,6 +192,18 @@ void DatasetViewer::showRefusal(const QString& message)
   this->statusBar()->clearMessage();
   this->EmptyText->setText(
     tr("<p>%1</p><p>Open the folder that <i>dgtk render</i> wrote.</p>").arg(message.toHtmlEscaped()));
+  if (!this->Awaited.isEmpty())
+  {
+    QTimer::singleShot(pause, this,
+      [this]
+      {
+        if (!this->Awaited.isEmpty())
+        {
+          this->Loader->open(this->Awaited);
+        }
+      });
+    return;
+  }
   QMessageBox box(QMessageBox::Warning, tr("DGTk"), message, QMessageBox::Ok, this);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("errorBox");

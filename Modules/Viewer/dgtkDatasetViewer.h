@@ -82,6 +82,7 @@ private:
   /// Whether there is no dataset, or another one in its place: then it is left, and that one opened, by and by.
   bool isLeft();
   void leaveReplaced();
+  void chooseAgain();
 
   void chooseFirstLayers();
   void setPaneCount(int count);
@@ -118,8 +119,11 @@ private:
   PictureSync* Sync;
   std::map<std::string, PictureRange> Ranges;       ///< chosen by the user, by label
   std::map<std::string, ShownPointer> PointSources; ///< by camera
-  QString OverlayProblem;                           ///< that the status bar shows, or showed
-  std::set<int> Pending;                            ///< the loader's slots whose picture of this frame is not there yet
+  QString Awaited;                                  ///< the folder of a dataset that was replaced, until it is whole
+  int AwaitedFrame = 0;                             ///< that was shown, from 0
+  std::vector<std::pair<QString, QString>> AwaitedPanes; ///< camera and layer
+  QString OverlayProblem;                                ///< that the status bar shows, or showed
+  std::set<int> Pending; ///< the loader's slots whose picture of this frame is not there yet
   bool CloudFramed = false;
   bool CloudPending = false;
   QTimer CloudTimer;

@@ -131,7 +131,7 @@ void MainWindow::note(const QString& line) { this->Log->note(line); }
 
 void MainWindow::noteReplacedModels()
 {
-  for (const std::string& file : this->document().replacedModels())
+  for (const std::string& file : this->State->document().takeReplacedModels())
   {
     this->note(tr("Warning: %1 has changed since it was read here. Open the scene again to see it as it is rendered.")
                  .arg(toText(file)));

@@ -168,8 +168,12 @@ void TestEditorFiles::savingAsksAboutWhatItDestroys()
   this->write("box.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
   this->action("show.colour")->trigger();
   QVERIFY2(log->toPlainText().contains(warning), qPrintable(log->toPlainText()));
+  const auto change = [&](const char* side)
+  { this->write("box.obj", "v 0 0 0\nv 2 0 0\nv 0 " + QByteArray(side) + " 0\nf 1 2 3\n"); };
+  change("33");
   emit this->Window->findChild<dgtk::SceneViews*>()->lookedThrough({});
   QCOMPARE(log->toPlainText().count(warning), 2);
+  change("444");
   this->action("render")->trigger();
   auto* const rendering = this->Window->findChild<dgtk::RenderDialog*>();
   emit rendering->started();

@@ -329,22 +329,24 @@ void TestEditorViewer::aReplacedDatasetIsOpenedAgain()
   QMainWindow* const viewer = this->open(QString::fromStdString(folder));
   QVERIFY(viewer != nullptr);
   QSignalSpy opened(viewer, SIGNAL(opened(QString)));
-  dgtk::writeFile(manifest, dgtk::readFile(manifest));
+  const std::string whole = dgtk::readFile(manifest) + '\n';
+  dgtk::writeFile(manifest, whole);
   QTest::keyClick(viewer, Qt::Key_Period);
   QTRY_COMPARE(opened.count(), 1);
-  QCOMPARE(viewer->findChild<QLabel*>("frameText")->text(), QString("Frame 0 (1 of 3)"));
+  const auto frame = [&] { return viewer->findChild<QLabel*>("frameText")->text(); };
+  QVERIFY2(frame().contains("(2 of 3)"), qPrintable(frame())); // that was asked for
   this->waitForPictures(viewer);
   QTest::keyClick(viewer, Qt::Key_Period);
   this->waitForPictures(viewer);
   QCOMPARE(opened.count(), 1);
 
-  fs::remove(manifest); // as a run does that replaces it
-  QString message;
-  expectRefusal(message);
+  fs::remove(manifest);                  // as a run does that replaces it
   QTest::keyClick(viewer, Qt::Key_Home); // what was read already
-  QTRY_VERIFY(!message.isEmpty());
-  QVERIFY(viewer->findChild<QLabel*>("emptyText")->isVisible());
+  QTRY_VERIFY(viewer->findChild<QLabel*>("emptyText")->isVisible());
   triggerAll(viewer);
+  dgtk::writeFile(manifest, whole);
+  QTRY_COMPARE(opened.count(), 2);
+  QVERIFY2(frame().contains("(1 of 3)"), qPrintable(frame()));
 }
 
 void TestEditorViewer::brokenDatasetsAreRefused()

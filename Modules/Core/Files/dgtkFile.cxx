@@ -333,6 +333,22 @@ void writeFileDurably(const FilePlace& place, const std::string& contents)
   file.commitDurably();
 }
 
+bool leadsToOneOf(const std::string& path, const std::vector<std::string>& files)
+{
+  std::error_code code; // where one is not there
+  return std::filesystem::exists(path, code) &&
+         std::any_of(files.begin(), files.end(),
+           [&](const std::string& file) { return std::filesystem::equivalent(path, file, code); });
+}
+
+void refuseInPlaceOf(const std::vector<std::string>& read, const std::string& path)
+{
+  if (leadsToOneOf(path, read))
+  {
+    throw UsageError(path + ": is one of the files that are read for it; name another file");
+  }
+}
+
 void makeFolders(const std::string& path)
 {
   std::error_code code;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
@@ -95,6 +96,11 @@ DGTKCORE_EXPORT bool writeAll(int descriptor, const void* data, std::size_t byte
 DGTKCORE_EXPORT void writeFile(const FilePlace& place, const std::string& contents);
 /// The same with AtomicFile::commitDurably().
 DGTKCORE_EXPORT void writeFileDurably(const FilePlace& place, const std::string& contents);
+
+/// Whether a path leads to one of these files, which need not be there.
+DGTKCORE_EXPORT bool leadsToOneOf(const std::string& path, const std::vector<std::string>& files);
+/// Throws UsageError where what is to be written to a path would replace one of the files that it is made of.
+DGTKCORE_EXPORT void refuseInPlaceOf(const std::vector<std::string>& read, const std::string& path);
 
 /// Creates a folder and its parents. Throws MachineError.
 DGTKCORE_EXPORT void makeFolders(const std::string& path);

@@ -431,21 +431,23 @@ TEST(SceneDocument, ModelsThatHaveChangedSinceTheyWereReadAreNamed)
   SceneDocument document;
   document.open(folder.path("scene.json"));
   document.addModel(folder.path("b.obj"));
-  EXPECT_THAT(document.replacedModels(), IsEmpty());
+  EXPECT_THAT(document.takeReplacedModels(), IsEmpty());
   writeModel("a.obj", "22");
-  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj")));
+  EXPECT_THAT(document.takeReplacedModels(), ElementsAre(folder.path("a.obj")));
   writeModel("b.obj", "22");
-  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj"), folder.path("b.obj")));
+  EXPECT_THAT(document.takeReplacedModels(), ElementsAre(folder.path("b.obj"))) << "once each";
   document.undo();
-  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj"))) << "of the scene as it is";
+  writeModel("a.obj", "333");
+  writeModel("b.obj", "333");
+  EXPECT_THAT(document.takeReplacedModels(), ElementsAre(folder.path("a.obj"))) << "of the scene as it is";
   document.open(folder.path("scene.json"));
-  EXPECT_THAT(document.replacedModels(), IsEmpty()) << "read again";
+  EXPECT_THAT(document.takeReplacedModels(), IsEmpty()) << "read again";
   std::filesystem::remove(folder.path("a.obj"));
-  EXPECT_THAT(document.replacedModels(), ElementsAre(folder.path("a.obj")));
+  EXPECT_THAT(document.takeReplacedModels(), ElementsAre(folder.path("a.obj")));
   document.clear();
   writeModel("a.obj", "3");
   document.addModel(folder.path("a.obj"));
-  EXPECT_THAT(document.replacedModels(), IsEmpty());
+  EXPECT_THAT(document.takeReplacedModels(), IsEmpty());
 }
 
 TEST(SceneDocument, CommentsThatSavingRemovesAreKnown)

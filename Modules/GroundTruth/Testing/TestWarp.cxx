@@ -211,6 +211,82 @@ TEST(Warp, PanesAreLaidFarToNear)
   }
 }
 
+namespace
+{
+/// A plane through (0, 0, 5) of one colour, red 200, that a normal and an opacity of a half belong to; farther by
+/// `behind` along the rays.
+WarpSource veil(const Eigen::Vector3d& normal, double behind = 0)
+{
+  return [=](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    wall(5)(
+      [&](int x, int y, const WarpSample&)
+      {
+        const Eigen::Vector3d ray((x + 0.5 - width / 2.0) / focal, (y + 0.5 - height / 2.0) / focal, 1);
+        const double depth = 5 * normal.z() / normal.dot(ray);
+        visit(x, y, { { 200, 0, 0, 128 }, depth + behind, splatIndex(depth * ray.norm(), normal, 0.1, 1000) });
+      });
+  };
+}
+
+/// Pixels inside that a picture has in another red.
+int others(const WarpedImage& image, int red)
+{
+  int count = 0;
+  for (int y = 3; y < height - 3; ++y)
+  {
+    for (int x = 3; x < width - 3; ++x)
+    {
+      count += std::abs(image.rgb[(y * width + x) * 3] - red) > 1;
+    }
+  }
+  return count;
+}
+} // namespace
+
+TEST(Warp, AVeilIsLaidOnceHoweverItsNormalIsRounded)
+{
+  for (const Eigen::Vector3d& normal : { Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0.01, -0.01, -1),
+         Eigen::Vector3d(-0.26, 0.01, -1), Eigen::Vector3d(-0.5, 0.3, -1), Eigen::Vector3d(0.6, 0.6, -1) })
+  {
+    for (const double forward : { 0.1, 0.9, 1.7, 2.5, 3.1 })
+    {
+      const View to = viewAt({ 0.05, 0.03, forward });
+      EXPECT_EQ(others(warpLayeredDepth(veil(normal.normalized()), viewAt({ 0, 0, 0 }), to), 100), 0)
+        << normal.transpose() << ", " << forward;
+    }
+  }
+}
+
+TEST(Warp, SheetsThatOnePixelSeesAreTwoHoweverNear)
+{
+  const Eigen::Vector3d normal(0, 0, -1);
+  for (const double apart : { 0.001, 0.01, 0.1, 1.0 })
+  {
+    const WarpSource sheets = both(veil(normal), veil(normal, apart));
+    for (const double forward : { 0.0, 0.9, 2.5 })
+    {
+      const View to = viewAt({ 0, 0, forward });
+      EXPECT_EQ(others(warpLayeredDepth(sheets, viewAt({ 0, 0, 0 }), to), 150), 0) << apart << ", " << forward;
+    }
+  }
+}
+
+// A tenth of a pixel's width and height, 0.1 each, is what a depth may be off, of either sample.
+TEST(Warp, VeilsOfTwoPixelsAreOneWhereTheyMayBe)
+{
+  for (const auto& [depth, red] : { std::pair(5.02, 100), std::pair(4.98, 100), std::pair(5.06, 150) })
+  {
+    const WarpSource two = [depth = depth](const std::function<void(int, int, const WarpSample&)>& visit)
+    {
+      visit(20, 15, { { 200, 0, 0, 128 }, 5, facing });
+      visit(21, 15, { { 200, 0, 0, 128 }, depth, facing });
+    };
+    const WarpedImage image = warpLayeredDepth(two, viewAt({ 0, 0, 0 }), viewAt({ 0.05, 0, 0 })); // half a pixel
+    EXPECT_NEAR(image.rgb[(15 * width + 20) * 3], red, 1) << depth;
+  }
+}
+
 TEST(Warp, OfAPaneTheSampleNearestToThePixelIsLaidOver)
 {
   // A shift of 0.4 pixels: the sample of the pixel itself is 0.4 away, that of the next column 0.6.

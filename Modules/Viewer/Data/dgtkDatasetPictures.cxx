@@ -4,6 +4,7 @@
 #include "dgtkCryptomatte.h"
 #include "dgtkError.h"
 #include "dgtkFolderContents.h"
+#include "dgtkHash.h"
 #include "dgtkJournal.h"
 #include "dgtkLayerReader.h"
 #include "dgtkText.h"
@@ -111,7 +112,6 @@ void attempt(std::vector<std::string>& warnings, const Read& read)
 
 DatasetPictures::DatasetPictures(const std::string& folder)
   : Folder(folderOf(folder))
-  , Age(manifestOf(this->Folder))
 {
   const fs::path root = this->Folder;
   std::error_code failed;
@@ -126,7 +126,8 @@ DatasetPictures::DatasetPictures(const std::string& folder)
                                      ? "the dataset is not finished: render it again, to its end"
                                      : "is not the folder of a dataset: it has no manifest.json");
   }
-  this->TheManifest = readManifest((root / manifestName).string());
+  this->ManifestHash = hashOfFile(manifestOf(this->Folder));
+  this->TheManifest = readManifest(manifestOf(this->Folder));
   this->readDocuments();
   this->index();
   if (this->Files.empty())
@@ -135,7 +136,17 @@ DatasetPictures::DatasetPictures(const std::string& folder)
   }
 }
 
-bool DatasetPictures::isReplaced() const { return !(FileAge(manifestOf(this->Folder)) == this->Age); }
+bool DatasetPictures::isReplaced() const
+{
+  try
+  {
+    return hashOfFile(manifestOf(this->Folder)) != this->ManifestHash; // reads it only where its age is another
+  }
+  catch (const InputError&)
+  {
+    return true;
+  }
+}
 
 void DatasetPictures::readDocuments()
 {

@@ -5,7 +5,6 @@
 #include "dgtkViewerModule.h"
 
 #include "dgtkDatasetDocuments.h"
-#include "dgtkHash.h"
 #include "dgtkSceneDescription.h"
 
 #include <map>
@@ -104,7 +103,7 @@ private:
   void sortLayers(std::map<std::string, PictureLayer>& found);
 
   std::string Folder;
-  FileAge Age; ///< of the manifest, before anything was read
+  std::string ManifestHash; ///< before it was read
   Manifest TheManifest;
   std::vector<std::string> Warnings;
   std::vector<std::string> Cameras;

@@ -102,12 +102,15 @@ TEST(DatasetPictures, AnotherDatasetInTheirFolderIsNoticed)
   files.finish();
   const DatasetPictures dataset(files.path());
   EXPECT_FALSE(dataset.isReplaced());
+  const std::string manifest = files.path("manifest.json");
+  writeFile(manifest, readFile(manifest));
+  EXPECT_FALSE(dataset.isReplaced()) << "the same bytes";
   files.add("left", "depth", 1, "", "npy", depth, ramp);
   files.finish();
   EXPECT_TRUE(dataset.isReplaced());
   const DatasetPictures now(files.path());
   EXPECT_FALSE(now.isReplaced());
-  std::filesystem::remove(files.path("manifest.json"));
+  std::filesystem::remove(manifest);
   EXPECT_TRUE(now.isReplaced()) << "it is being replaced";
 }
 
