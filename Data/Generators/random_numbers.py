@@ -53,9 +53,7 @@ def fractal_noise(width, height, cells_x, cells_y, seed, octaves=4, gain=0.5):
     amplitude, sum_of_amplitudes = 1.0, 0.0
     for octave in range(octaves):
         layer = lattice_noise(width, height, cells_x << octave, cells_y << octave, seed + 101 * octave)
-        for row, extra in zip(total, layer):
-            for x, value in enumerate(extra):
-                row[x] += amplitude * value
+        total = [[value + amplitude * more for value, more in zip(row, extra)] for row, extra in zip(total, layer)]
         sum_of_amplitudes += amplitude
         amplitude *= gain
     return [[value / sum_of_amplitudes for value in row] for row in total]

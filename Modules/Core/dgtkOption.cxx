@@ -100,7 +100,7 @@ std::vector<double> numbersIn(const OptionRow& row, const std::string& text)
   const bool wrong = std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
   if (values.size() != row.count || wrong)
   {
-    refuse(row, row.value + (row.leastNumber == 0 ? ", all above 0" : ""), text);
+    refuse(row, row.value + ", all " + (row.leastNumber == 0 ? "above 0 and " : "") + "below 1e30", text);
   }
   return values;
 }

@@ -173,7 +173,7 @@ std::vector<std::string> SceneDocument::takeReplacedModels()
   {
     const auto read = this->Read.find(file);
     const FileAge now(file);
-    if (read != this->Read.end() && read->second.isFile() && !(read->second == now))
+    if (read != this->Read.end() && !(read->second == now))
     {
       files.push_back(file);
       read->second = now;

@@ -69,6 +69,25 @@ std::optional<double> baselineOf(const CameraRecord& left, const CameraRecord& r
   const bool along = std::abs(apart.y()) <= 1e-9 * size && std::abs(apart.z()) <= 1e-9 * size;
   return along && apart.x() > 1e-9 * size ? std::optional<double>(apart.x()) : std::nullopt;
 }
+
+/// The same at the last frame of the left camera, when they are rectified at all of them.
+std::optional<double> lastBaseline(
+  const std::vector<const DatasetShot*>& left, const std::vector<const DatasetShot*>& right)
+{
+  std::optional<double> baseline;
+  auto other = right.begin();
+  for (const DatasetShot* shot : left)
+  {
+    other = std::find_if(other, right.end(), [&](const DatasetShot* one) { return one->frame() >= shot->frame(); });
+    const bool there = other != right.end() && (*other)->frame() == shot->frame();
+    baseline = there ? baselineOf(shot->camera, (*other)->camera) : std::nullopt;
+    if (!baseline)
+    {
+      break;
+    }
+  }
+  return baseline;
+}
 } // namespace
 
 /// poses.json, which is read when poses are first asked for.
@@ -106,7 +125,7 @@ DatasetView::DatasetView(const std::string& folder, const DatasetSelection& sele
   this->Classes = readClasses(place.fileAt("objects.json"));
   this->readShots(selection);
   this->readFiles();
-  this->MetresPerUnit = selection.metresPerUnit > 0 ? selection.metresPerUnit : this->TheManifest.metresPerUnit;
+  this->chooseUnit(selection.metresPerUnit);
 }
 
 DatasetView::~DatasetView() = default;
@@ -165,6 +184,18 @@ void DatasetView::readShots(const DatasetSelection& selection)
   }
 }
 
+void DatasetView::chooseUnit(double given)
+{
+  constexpr double tolerance = 1e-6; // as of a scene's `metresPerUnit`
+  const double said = this->TheManifest.metresPerUnit;
+  if (given > 0 && said > 0 && std::abs(given / said - 1) > tolerance)
+  {
+    throw UsageError("unit_metres: the dataset says how long its unit is (expected " + shortest(said) + ", found " +
+                     shortest(given) + ')');
+  }
+  this->MetresPerUnit = given > 0 ? given : said;
+}
+
 /// Of a camera, among those of all scenes.
 std::string DatasetView::nameOf(const std::string& camera) const
 {
@@ -217,13 +248,12 @@ std::vector<int> DatasetView::frames() const
 
 std::vector<const DatasetShot*> DatasetView::shotsOf(const std::string& camera) const
 {
+  auto shot = std::lower_bound(this->Shots.begin(), this->Shots.end(), camera,
+    [](const DatasetShot& one, const std::string& name) { return one.name() < name; });
   std::vector<const DatasetShot*> found;
-  for (const DatasetShot& shot : this->Shots)
+  for (; shot != this->Shots.end() && shot->name() == camera; ++shot)
   {
-    if (shot.name() == camera)
-    {
-      found.push_back(&shot);
-    }
+    found.push_back(&*shot);
   }
   return found;
 }
@@ -399,22 +429,20 @@ double DatasetView::metres() const
 
 std::vector<RectifiedPair> DatasetView::rectifiedPairs() const
 {
-  std::vector<RectifiedPair> pairs;
-  for (const std::string& left : this->cameras())
+  std::vector<std::vector<const DatasetShot*>> cameras;
+  for (const std::string& camera : this->cameras())
   {
-    for (const std::string& right : this->cameras())
+    cameras.push_back(this->shotsOf(camera));
+  }
+  std::vector<RectifiedPair> pairs;
+  for (const std::vector<const DatasetShot*>& left : cameras)
+  {
+    for (const std::vector<const DatasetShot*>& right : cameras)
     {
-      std::optional<double> baseline;
-      bool all = left != right;
-      for (const DatasetShot* shot : this->shotsOf(left))
+      const std::optional<double> baseline = &left == &right ? std::nullopt : lastBaseline(left, right);
+      if (baseline)
       {
-        const DatasetShot* other = all ? this->shot(right, shot->frame()) : nullptr;
-        baseline = other ? baselineOf(shot->camera, other->camera) : std::nullopt;
-        all = all && baseline.has_value();
-      }
-      if (all && baseline)
-      {
-        pairs.push_back({ left, right, *baseline });
+        pairs.push_back({ left[0]->name(), right[0]->name(), *baseline });
       }
     }
   }

@@ -32,7 +32,7 @@ struct DatasetSelection
   int first = 0; ///< of some frames: first, first + step, ... up to last
   int last = 0;
   int step = 1;
-  double metresPerUnit = 0;  ///< 0: what the dataset says
+  double metresPerUnit = 0;  ///< where the dataset does not say it; 0: not known
   bool pinholeTwins = false; ///< a camera with a lens or a shutter gives way to a plain pinhole with the same poses
 };
 
@@ -78,7 +78,8 @@ class DGTKEXPORT_EXPORT DatasetView
 {
 public:
   /// Throws UsageError for a camera that there is not, for a selection without a picture and for a camera that lacks
-  /// the pinhole twin that is to take its place: it says which one is needed.
+  /// the pinhole twin that is to take its place: it says which one is needed; and for a unit that contradicts the
+  /// dataset's.
   explicit DatasetView(
     const std::string& folder, const DatasetSelection& selection = {}, const SceneOfMany& scene = {});
   ~DatasetView();
@@ -151,6 +152,7 @@ private:
   class Poses;
   void readShots(const DatasetSelection& selection);
   void readFiles();
+  void chooseUnit(double given);
   DatasetFile describedFile(std::uint32_t number) const;
   std::string nameOf(const std::string& camera) const;
   std::string Folder;

@@ -395,39 +395,50 @@ private:
     }
   }
 
-  /// Whether a sample is of the surface of which these are the farthest and the one before.
-  static bool sameSurface(const Fragment& farthest, const Fragment& before, const Fragment& next)
-  {
-    return next.pixel == before.pixel && next.from != farthest.from &&
-           next.depth + next.slack >= before.depth - before.slack;
-  }
-
-  /// Lays what is not opaque over the rest, far to near; of the samples of one surface the one nearest to the centre.
-  /// Samples of one pixel of the first view are of two surfaces.
+  /// Lays what is not opaque over the rest, far to near. Samples whose depths may be the same are of one surface, and
+  /// the one nearest to the centre is laid; but those of one pixel of the first view are of as many surfaces.
   void blendVeils()
   {
     std::stable_sort(this->Veils.begin(), this->Veils.end(),
       [](const Fragment& a, const Fragment& b)
       { return a.pixel < b.pixel || (a.pixel == b.pixel && a.depth > b.depth); });
-    for (std::size_t first = 0; first < this->Veils.size();)
+    std::vector<const Fragment*> surfaces; // of each the sample that is laid, far to near
+    for (auto first = this->Veils.begin(); first != this->Veils.end();)
     {
-      std::size_t best = first;
-      std::size_t next = first + 1;
-      for (; next < this->Veils.size() && sameSurface(this->Veils[first], this->Veils[next - 1], this->Veils[next]);
-           ++next)
+      surfaces.clear();
+      auto next = first;
+      do
       {
-        best = this->Veils[next].weight > this->Veils[best].weight ? next : best;
-      }
-      const Fragment& veil = this->Veils[best];
-      const double opacity = veil.rgba[3] / 255.0;
-      for (std::size_t c = 0; c < 3; ++c)
+        const auto rank =
+          std::size_t(std::count_if(first, next, [&](const Fragment& farther) { return farther.from == next->from; }));
+        if (rank == surfaces.size())
+        {
+          surfaces.push_back(&*next);
+        }
+        else if (next->weight > surfaces[rank]->weight)
+        {
+          surfaces[rank] = &*next;
+        }
+        ++next;
+      } while (next != this->Veils.end() && next->pixel == first->pixel &&
+               next->depth + next->slack >= (next - 1)->depth - (next - 1)->slack);
+      for (const Fragment* veil : surfaces)
       {
-        double& value = this->Sums[3 * veil.pixel + c];
-        value += opacity * (veil.rgba[c] - value);
+        this->lay(*veil);
       }
-      this->Weights[veil.pixel] = 1; // no hole
       first = next;
     }
+  }
+
+  void lay(const Fragment& veil)
+  {
+    const double opacity = veil.rgba[3] / 255.0;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      double& value = this->Sums[3 * veil.pixel + c];
+      value += opacity * (veil.rgba[c] - value);
+    }
+    this->Weights[veil.pixel] = 1; // no hole
   }
 
   int Width;

@@ -135,6 +135,12 @@ public:
   /// frame; fractions interpolate between neighbouring frames of the same animation, values outside are clamped to
   /// its span. `animation` indexes Model::animations. Thread-safe.
   virtual void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const = 0;
+  /// Whether an animation is known to leave everything as at its first frame, whatever the frame.
+  virtual bool holds(int animation) const
+  {
+    static_cast<void>(animation);
+    return false;
+  }
   /// All of it as bytes, for models that are kept for other runs.
   virtual std::string saved() const { return {}; }
 };

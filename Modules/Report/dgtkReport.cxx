@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkJournal.h"
 #include "dgtkLayerColors.h"
 #include "dgtkLongDocuments.h"
 #include "dgtkReportChecks.h"
@@ -93,6 +94,30 @@ int sideOf(const ReportSource& source, const std::vector<ReportLayer>& layers)
   }
   const double side = std::sqrt(mostCells / std::max(1.0, cells));
   return std::min(largestSide, std::max(smallestSide, static_cast<int>(side) / 8 * 8));
+}
+
+/// A dataset with a file that its manifest does not list is no sound one.
+void requireOutsideDatasets(const std::string& file)
+{
+  namespace fs = std::filesystem;
+  std::error_code code;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(file, code), code);
+  for (fs::path folder = whole.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+  {
+    if (!fs::exists(folder / manifestName, code))
+    {
+      continue;
+    }
+    try
+    {
+      readManifestIn(folder.string(), [](DatasetFile&&) {});
+    }
+    catch (const InputError&) // of a folder of datasets, or of another program
+    {
+      continue;
+    }
+    throw UsageError(file + ": lies in the dataset in " + folder.string() + "; name a file outside");
+  }
 }
 
 /// The page, written as it comes.
@@ -260,11 +285,11 @@ ReportJson layerJson(const ReportLayer& layer, const LayerResult& result)
     { "unit", utf8FromBytes(spec.unit) }, { "frame", utf8FromBytes(spec.frame) },
     { "invalid", utf8FromBytes(spec.invalid) }, { "description", utf8FromBytes(spec.description) },
     { "pictures", result.counted }, { "legend", result.legend } };
-  if (layer.counted == Counted::Numbers && result.counted > 0)
+  if (result.numbers.values + result.numbers.nothing > 0)
   {
     json["numbers"] = result.numbers.json();
   }
-  if (layer.counted == Counted::Brightness && result.counted > 0)
+  if (result.brightness.values > 0)
   {
     json["brightness"] = result.brightness.json();
   }
@@ -302,6 +327,7 @@ ReportResult writeReport(const ReportRequest& request, const ReportProgress& pro
 {
   ReportResult result;
   requireNoFileOfDataset(request.file);
+  requireOutsideDatasets(request.file);
   const ReportJson verification = verificationOf(request); // what is wrong with documents is said before the work
   const ReportJson exports = exportsOf(request);
   const ReportJson samples = samplesOf(request);
@@ -329,12 +355,15 @@ ReportResult writeReport(const ReportRequest& request, const ReportProgress& pro
       { page.block("d" + std::to_string(i) + '-' + std::to_string(shown), text); });
     layerList.push_back(layerJson(layers[i], one));
     addNotes(result.notes, one.notes);
-    keepFirst(layers[i].counted == Counted::Objects ? facts.covered : coveredByDepth, one.covered);
-    keepFirst(facts.brightness, one.means);
-    if (layers[i].counted == Counted::Objects || layers[i].counted == Counted::Classes)
+    const LayerSpec& spec = layers[i].spec;
+    const bool isId = spec.meaning == Meaning::Id;
+    // surfaces whose target is behind the camera have no displacement, a sensor's drop-outs no depth
+    if (spec.meaning != Meaning::Displacement && spec.name != "depth_noisy")
     {
-      keepFirst(layers[i].counted == Counted::Objects ? objects : classes, one.ids);
+      keepFirst(isId ? facts.covered : coveredByDepth, one.covered);
     }
+    keepFirst(facts.brightness, one.means);
+    keepFirst(isId ? objects : classes, one.ids);
     if (progress)
     {
       progress(i + 1, layers.size());

@@ -43,7 +43,7 @@ using ReportProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Writes one HTML file that needs nothing beside it: no request leaves it. The same bytes for the same dataset and
 /// request, whatever the threads. Files of pictures that cannot be read are notes of the page. Throws InputError for
-/// what is no dataset and for documents that cannot be read, UsageError for a page in place of a dataset's file,
+/// what is no dataset and for documents that cannot be read, UsageError for a page in a dataset's folder,
 /// MachineError where it cannot be written.
 DGTKREPORT_EXPORT ReportResult writeReport(const ReportRequest& request, const ReportProgress& progress = {});
 

@@ -5,6 +5,8 @@
 #include "dgtkExportDocument.h"
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
+#include "dgtkHash.h"
+#include "dgtkJournal.h"
 #include "dgtkJson.h"
 #include "dgtkUtf8.h"
 
@@ -32,6 +34,15 @@ std::string documentAt(const std::string& given, const std::string& dataset, con
   }
   const Folder folder(dataset);
   return folder.look(name) == EntryKind::File ? folder.fileAt(name) : "";
+}
+
+/// Whether a document is of the dataset as it is, by the hash of the manifest that it says; null where it says none.
+ReportJson isOf(const std::string& dataset, const std::string& hash)
+{
+  const Folder folder(dataset);
+  return hash.empty() ? ReportJson(nullptr)
+                      : ReportJson(folder.look(manifestName) == EntryKind::File &&
+                                   Sha256::ofFile(folder.fileAt(manifestName)) == hash);
 }
 
 ReportJson valueOf(const JsonNode& node)
@@ -126,7 +137,9 @@ ReportJson verificationOf(const ReportRequest& request)
   {
     root.fail("is not what a verification of a dataset says");
   }
-  return { { "passed", root["passed"].boolean() }, { "residuals", rowsOf(root["residuals"]) },
+  const std::string hash = root.has("dataset_manifest") ? root["dataset_manifest"].text() : "";
+  return { { "passed", root["passed"].boolean() }, { "same", isOf(request.dataset, hash) },
+    { "residuals", rowsOf(root["residuals"]) },
     { "unchecked", root.has("not_checked") ? rowsOf(root["not_checked"]) : ReportJson::array() } };
 }
 
@@ -142,8 +155,8 @@ ReportJson exportsOf(const ReportRequest& request)
       layers.push_back({ { "layer", utf8FromBytes(layer.layer) }, { "unit", utf8FromBytes(layer.unit) },
         { "largest", layer.largest }, { "values", layer.values }, { "withoutCode", layer.withoutCode } });
     }
-    exports.push_back({ { "format", utf8FromBytes(record.exporter) }, { "manifest", record.manifestHash },
-      { "files", record.files.size() }, { "layers", layers } });
+    exports.push_back({ { "format", utf8FromBytes(record.exporter) },
+      { "same", isOf(request.dataset, record.manifestHash) }, { "files", record.files.size() }, { "layers", layers } });
   }
   return exports;
 }

@@ -41,6 +41,7 @@ std::string labelOf(const DatasetFile& file)
     length > classes.size() && file.layer.compare(length - classes.size(), classes.size(), classes) == 0;
   return isClass && folder != file.layer ? folder + classes : folder;
 }
+} // namespace
 
 Counted countedOf(const LayerSpec& spec, const std::string& path)
 {
@@ -61,7 +62,6 @@ Counted countedOf(const LayerSpec& spec, const std::string& path)
       return Counted::Nothing;
   }
 }
-} // namespace
 
 std::vector<ReportLayer> reportLayers(const ReportSource& source)
 {
@@ -87,7 +87,7 @@ std::vector<ReportLayer> reportLayers(const ReportSource& source)
       }
       const std::string label = labelOf(file);
       auto& [order, layer] =
-        found.emplace(label, std::make_pair(spec->second.first, ReportLayer{ label, spec->second.second, {}, {} }))
+        found.emplace(label, std::make_pair(spec->second.first, ReportLayer{ label, spec->second.second, {} }))
           .first->second;
       std::string& path = layer.files[picture];
       const LayerSpec& meant = layer.spec;
@@ -107,7 +107,6 @@ std::vector<ReportLayer> reportLayers(const ReportSource& source)
   std::vector<ReportLayer> layers;
   for (auto& [order, layer] : sorted)
   {
-    layer.counted = countedOf(layer.spec, layer.files.begin()->second);
     layers.push_back(std::move(layer));
   }
   return layers;

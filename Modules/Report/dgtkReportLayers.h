@@ -26,9 +26,11 @@ struct ReportLayer
 {
   std::string label;
   LayerSpec spec;
-  Counted counted = Counted::Nothing;
   std::map<std::size_t, std::string> files; ///< by picture, of those that are read; relative to the scene's folder
 };
+
+/// By meaning and format: a picture of depths has no values.
+Counted countedOf(const LayerSpec& spec, const std::string& path);
 
 /// In the order of the manifests. Of a layer with several formats the one with its values, of pictures PNG.
 std::vector<ReportLayer> reportLayers(const ReportSource& source);

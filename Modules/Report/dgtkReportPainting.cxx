@@ -21,6 +21,10 @@ std::pair<double, double> rangeOf(const std::vector<ReportSamples>& all, std::si
   std::vector<double> values;
   for (const ReportSamples& samples : all)
   {
+    if (samples.info.format == "png")
+    {
+      continue; // levels of a picture of values
+    }
     const auto step = std::size_t(std::max(1, samples.info.channels));
     for (std::size_t i = channel; i < samples.exact.size(); i += step)
     {
@@ -80,9 +84,16 @@ std::string hexOf(const Rgb& color)
 
 } // namespace
 
+const ReportSamples& exampleOf(const std::vector<ReportSamples>& all)
+{
+  const auto values =
+    std::find_if(all.begin(), all.end(), [](const ReportSamples& one) { return one.info.format != "png"; });
+  return values == all.end() ? all.front() : *values;
+}
+
 Painting paintingOf(const ReportLayer& layer, const std::vector<ReportSamples>& all)
 {
-  const ImageInfo info = all.empty() ? ImageInfo() : all.front().info;
+  const ImageInfo info = all.empty() ? ImageInfo() : exampleOf(all).info;
   if (isFlow(layer.spec, info))
   {
     Painting wheel{ { LayerLook::Flow, layer.spec, info }, {} };

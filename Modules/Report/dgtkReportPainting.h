@@ -15,6 +15,9 @@ struct Painting
   ReportJson legend;
 };
 
+/// What colours a layer: its first picture of values, else its first one.
+const ReportSamples& exampleOf(const std::vector<ReportSamples>& all);
+
 Painting paintingOf(const ReportLayer& layer, const std::vector<ReportSamples>& all);
 
 /// "width height pixel-width pixel-height channels type|png|values": a PNG in these colours, and the exact values

@@ -28,12 +28,12 @@ int endOf(int i, int samples, int pixels)
 class PictureReading
 {
 public:
-  PictureReading(const ReportLayer& layer, const ImageInfo& info, int side)
-    : Layer(layer)
+  PictureReading(const LayerSpec& spec, Counted counted, const ImageInfo& info, int side)
+    : What(counted)
     , Info(info)
     , Channels(std::size_t(info.channels))
-    , Colors(lookOf(layer.spec, info), layer.spec, info)
-    , Averages(lookOf(layer.spec, info) == LayerLook::Picture)
+    , Colors(lookOf(spec, info), spec, info)
+    , Averages(lookOf(spec, info) == LayerLook::Picture)
   {
     if (side <= 0)
     {
@@ -73,7 +73,7 @@ public:
 private:
   void count(const std::vector<double>& line)
   {
-    switch (this->Layer.counted)
+    switch (this->What)
     {
       case Counted::Nothing:
         return;
@@ -155,7 +155,7 @@ private:
     }
   }
 
-  const ReportLayer& Layer;
+  Counted What;
   ImageInfo Info;
   std::size_t Channels;
   LayerColors Colors;
@@ -168,6 +168,7 @@ private:
 /// One file: its counts and samples, or why it could not be read.
 struct ReadPicture
 {
+  Counted counted = Counted::Nothing;
   std::optional<PictureCounts> counts;
   ReportSamples samples;
   std::string note;
@@ -179,9 +180,10 @@ ReadPicture readPicture(const ReportSource& source, const ReportLayer& layer, st
   try
   {
     const DatasetView& view = source.viewOf(source.pictures[picture]);
-    const std::unique_ptr<RowReader> reader =
-      openLayerFile(Folder(view.folder()).fileAt(layer.files.find(picture)->second));
-    PictureReading reading(layer, reader->info(), side);
+    const std::string& path = layer.files.find(picture)->second;
+    const std::unique_ptr<RowReader> reader = openLayerFile(Folder(view.folder()).fileAt(path));
+    out.counted = countedOf(layer.spec, path);
+    PictureReading reading(layer.spec, out.counted, reader->info(), side);
     std::vector<double> line(std::size_t(reader->info().width) * std::size_t(reader->info().channels));
     for (Rows rows = reader->read(16); rows.height() > 0; rows = reader->read(16))
     {
@@ -201,11 +203,11 @@ ReadPicture readPicture(const ReportSource& source, const ReportLayer& layer, st
   return out;
 }
 
-void addCounts(LayerResult& result, const ReportLayer& layer, std::size_t picture, PictureCounts counts)
+void addCounts(LayerResult& result, Counted counted, std::size_t picture, PictureCounts counts)
 {
-  ++result.counted;
+  result.counted += counted != Counted::Nothing;
   std::uint64_t pixels = 0;
-  switch (layer.counted)
+  switch (counted)
   {
     case Counted::Nothing:
       return;
@@ -243,7 +245,7 @@ LayerResult readLayer(const ReportSource& source, const ReportLayer& layer, int 
   for (const auto& [picture, path] : layer.files)
   {
     const bool isShown = std::binary_search(source.shown.begin(), source.shown.end(), picture);
-    if (isShown || layer.counted != Counted::Nothing)
+    if (isShown || countedOf(layer.spec, path) != Counted::Nothing)
     {
       wanted.push_back(picture);
     }
@@ -269,7 +271,7 @@ LayerResult readLayer(const ReportSource& source, const ReportLayer& layer, int 
         result.notes.push_back(block[i].note);
         continue;
       }
-      addCounts(result, layer, picture, std::move(*block[i].counts));
+      addCounts(result, block[i].counted, picture, std::move(*block[i].counts));
       if (block[i].samples.width > 0)
       {
         const auto place = std::lower_bound(source.shown.begin(), source.shown.end(), picture);
@@ -285,9 +287,8 @@ LayerResult readLayer(const ReportSource& source, const ReportLayer& layer, int 
     [&](int i)
     {
       const ReportSamples& one = samples[std::size_t(i)];
-      // a file of another shape than the first cannot be coloured with it
-      const bool like =
-        one.info.channels == samples.front().info.channels && one.info.type == samples.front().info.type;
+      const ImageInfo& example = exampleOf(samples).info; // a file of another shape cannot be coloured with it
+      const bool like = one.info.channels == example.channels && one.info.type == example.type;
       texts[std::size_t(i)] = blockOf(one, like ? painting.colors : paintingOf(layer, { one }).colors);
     });
   for (std::size_t i = 0; i < texts.size(); ++i)

@@ -69,6 +69,7 @@ std::vector<int> someOf(const std::vector<int>& frames)
   return some;
 }
 
+/// Places: frame, centre, direction forward; of pinholes the directions to the picture's corners.
 ReportJson camerasOf(const DatasetView& view, const std::vector<int>& frames, bool upZ)
 {
   ReportJson cameras = ReportJson::array();
@@ -91,12 +92,16 @@ ReportJson camerasOf(const DatasetView& view, const std::vector<int>& frames, bo
       const Eigen::Vector3d forward = seenFromAbove(record.R.row(2).transpose(), upZ);
       place.push_back(rounded(forward.x()));
       place.push_back(rounded(forward.y()));
+      for (int corner = 0; isPinhole(record) && corner < 4; ++corner)
+      {
+        const Eigen::Vector3d pixel(corner & 1 ? record.width : 0, corner & 2 ? record.height : 0, 1);
+        const Eigen::Vector3d edge =
+          seenFromAbove(record.R.transpose() * (record.K.inverse() * pixel).normalized(), upZ);
+        place.push_back(rounded(edge.x()));
+        place.push_back(rounded(edge.y()));
+      }
       camera["places"].push_back(place);
       camera["model"] = utf8FromBytes(record.model);
-      if (isPinhole(record))
-      {
-        camera["half"] = rounded(portable::atan(record.width / 2.0 / record.K(0, 0)));
-      }
     }
     cameras.push_back(camera);
   }
@@ -141,12 +146,17 @@ ReportJson objectsOf(const DatasetView& view, const std::vector<int>& frames, bo
     // the list is named where it is counted
   }
   std::map<std::uint32_t, ReportJson> places;
+  std::map<std::uint32_t, std::vector<int>> hidden; // frames
   for (const int frame : frames)
   {
     for (const PoseRecord& pose : view.poses(frame))
     {
       const ObjectRecord* const object = view.object(pose.id);
       ReportJson& list = places[pose.id];
+      if (!pose.visible)
+      {
+        hidden[pose.id].push_back(frame);
+      }
       if (!pose.visible || (object != nullptr && object->isStatic && !list.empty()))
       {
         continue;
@@ -169,7 +179,8 @@ ReportJson objectsOf(const DatasetView& view, const std::vector<int>& frames, bo
     if (objects.size() < mostObjects && !list.empty())
     {
       const ObjectRecord* const object = view.object(id);
-      objects.push_back({ { "id", id }, { "static", object != nullptr && object->isStatic }, { "places", list } });
+      objects.push_back({ { "id", id }, { "static", object != nullptr && object->isStatic }, { "places", list },
+        { "hidden", hidden[id] } });
     }
   }
   return objects;

@@ -42,6 +42,21 @@ SceneDescription readScene(const std::string& path)
 
 namespace
 {
+/// Scenes are written with a version; those by hand have cameras at least beside something else that is seen. Records
+/// of samples have a version, too, and documents of datasets cameras.
+bool isSceneRoot(const JsonNode& root)
+{
+  if (root.type != JsonNode::Type::Object || root.find("samples") != nullptr)
+  {
+    return false;
+  }
+  const JsonNode* const version = root.find("version");
+  const auto has = [&](const char* key) { return root.find(key) != nullptr; };
+  const bool isVersioned = version != nullptr && version->type == JsonNode::Type::Number;
+  const bool isSeen = has("objects") || has("lights") || has("environment") || has("background");
+  return isVersioned ? isSeen || has("cameras") : isSeen && has("cameras");
+}
+
 /// Of an object that has an id, unless its model has no surfaces.
 void addClassName(const JsonNode& object, std::set<std::string>& names)
 {
@@ -68,8 +83,7 @@ SceneOutline outlineOf(const std::string& path)
   const JsonDocument document = parseJson(path, readFile(path, largestFile));
   const JsonNode& root = document.root;
   const JsonNode* const objects = root.find("objects");
-  outline.isScene = root.type == JsonNode::Type::Object && root.find("cameras") != nullptr &&
-                    (objects != nullptr || root.find("lights") != nullptr || root.find("environment") != nullptr);
+  outline.isScene = isSceneRoot(root);
   if (!outline.isScene)
   {
     return outline;

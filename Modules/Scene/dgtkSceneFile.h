@@ -16,8 +16,8 @@ namespace dgtk
 /// What scenes that are rendered together have to know of one another.
 struct SceneOutline
 {
-  /// By its extension and, of .json, by its keys: cameras beside objects, lights or an environment. Files of classes,
-  /// records of samples and documents of datasets are none.
+  /// By its extension and, of .json, by its keys: two of a version, cameras, and objects, lights, an environment or a
+  /// background. Files of classes, records of samples and documents of datasets are none.
   bool isScene = false;
   std::vector<ClassDescription> classes; ///< whose numbers it fixes, itself or by a file
   std::set<std::string> classNames;      ///< of its objects; "": some have none

@@ -153,7 +153,7 @@ private:
       if ((isEver(object.visible) || !object.className.empty()) && !this->isNumbered(object.className))
       {
         const std::string& file = this->Scene.classFile;
-        this->fail(Kind::Object, i, "class", "has no number in " + (file.empty() ? "\"classes\"" : file),
+        this->fail(Kind::Object, i, "class", "has no number in " + (file.empty() ? "the given classes" : file),
           "one of " + names, quoted(object.className));
       }
     }

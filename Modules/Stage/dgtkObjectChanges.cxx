@@ -68,7 +68,7 @@ bool ObjectChanges::deforms(std::size_t object) const
   const ObjectDescription& description = this->Scene.objects[this->Objects[object]];
   const Model& model = *instance.model;
   const int animation = model.deformation ? findAnimation(this->Scene, description, model) : -1;
-  if (animation < 0)
+  if (animation < 0 || model.deformation->holds(animation))
   {
     return false;
   }

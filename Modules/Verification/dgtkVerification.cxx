@@ -3,6 +3,8 @@
 
 #include "dgtkCheck.h"
 #include "dgtkError.h"
+#include "dgtkHash.h"
+#include "dgtkJournal.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -151,6 +153,7 @@ VerificationReport verifyDataset(const std::string& folder, int threads, const s
 {
   const std::vector<const Check*> asked = checksOf(checks);
   Dataset dataset(folder, threads);
+  const std::string manifestHash = Sha256::ofFile(dataset.absolute(manifestName)); // not of one that comes meanwhile
   Results results;
   results.startCheck(0, allChecks[0].name);
   for (const Dataset::Problem& problem : dataset.problems())
@@ -170,6 +173,7 @@ VerificationReport verifyDataset(const std::string& folder, int threads, const s
     verifyPictures(dataset, asked, results);
   }
   VerificationReport report = results.report();
+  report.manifestHash = manifestHash;
   report.unchecked = checks.empty() ? uncheckedOf(dataset, results) : std::vector<Unchecked>{};
   return report;
 }

@@ -54,6 +54,7 @@ struct Unchecked
 
 struct VerificationReport
 {
+  std::string manifestHash;         ///< SHA-256 of the dataset's manifest; "" where the report is not of a dataset
   std::vector<Residual> residuals;  ///< in the order of the checks; only of layers that the dataset has
   std::vector<Unchecked> unchecked; ///< sorted; empty where only some checks were asked for
   /// No breach, and something was checked.

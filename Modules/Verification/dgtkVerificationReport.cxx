@@ -120,6 +120,10 @@ std::string verificationText(const VerificationReport& report)
   OrderedJson json;
   json["format"] = "DGTk verification";
   json["format_version"] = 1;
+  if (!report.manifestHash.empty())
+  {
+    json["dataset_manifest"] = report.manifestHash;
+  }
   json["passed"] = report.passed();
   json["residuals"] = OrderedJson::array();
   for (const Residual& residual : report.residuals)

@@ -38,6 +38,7 @@ PicturePane* DatasetViewer::activePane() const { return this->Grid->active(); }
 void DatasetViewer::openFolder(const QString& folder)
 {
   this->Awaited.clear();
+  this->IsOpening = true;
   this->statusBar()->showMessage(tr("Opening %1 ...").arg(folder));
   this->Loader->open(folder);
 }
@@ -46,6 +47,7 @@ void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& da
 {
   const bool isAgain = this->Awaited == text(dataset->folder());
   this->Awaited.clear();
+  this->IsOpening = false;
   this->Dataset = dataset;
   if (!isAgain)
   {
@@ -94,7 +96,7 @@ void DatasetViewer::leaveReplaced()
 {
   if (this->Dataset && this->Dataset->isReplaced())
   {
-    this->Awaited = text(this->Dataset->folder());
+    this->Awaited = this->IsOpening ? QString() : text(this->Dataset->folder());
     this->AwaitedFrame = this->Frames->index();
     this->AwaitedPanes.clear();
     for (const PicturePane* pane : this->panes())
@@ -109,7 +111,10 @@ void DatasetViewer::leaveReplaced()
     this->Calibration->clear();
     this->Pages->setCurrentIndex(0);
     this->enableActions(false);
-    this->Loader->open(this->Awaited);
+    if (!this->Awaited.isEmpty())
+    {
+      this->Loader->open(this->Awaited);
+    }
   }
 }
 
@@ -189,6 +194,7 @@ void DatasetViewer::oneLayerOfCameras()
 
 void DatasetViewer::showRefusal(const QString& message)
 {
+  this->IsOpening = false;
   this->statusBar()->clearMessage();
   this->EmptyText->setText(
     tr("<p>%1</p><p>Open the folder that <i>dgtk render</i> wrote.</p>").arg(message.toHtmlEscaped()));

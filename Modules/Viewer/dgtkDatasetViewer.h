@@ -119,6 +119,7 @@ private:
   PictureSync* Sync;
   std::map<std::string, PictureRange> Ranges;       ///< chosen by the user, by label
   std::map<std::string, ShownPointer> PointSources; ///< by camera
+  bool IsOpening = false;                           ///< a folder that the user chose
   QString Awaited;                                  ///< the folder of a dataset that was replaced, until it is whole
   int AwaitedFrame = 0;                             ///< that was shown, from 0
   std::vector<std::pair<QString, QString>> AwaitedPanes; ///< camera and layer

@@ -90,7 +90,7 @@ class Edits:
             document = json.load(file)
         edit(document)
         with open(self.path(name), "w", encoding="utf-8") as file:
-            json.dump(document, file)
+            file.write(json.dumps(document))
         return name, None
 
     def bytes(self, name, edit):
@@ -131,5 +131,5 @@ class Edits:
                 data = contents(self.path(entry["path"]))
                 entry["bytes"], entry["sha256"] = len(data), hashlib.sha256(data).hexdigest()
         with open(manifest, "w", encoding="utf-8") as file:
-            json.dump(document, file)
+            file.write(json.dumps(document))
         self.changed.clear()

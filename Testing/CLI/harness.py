@@ -19,6 +19,7 @@ DGTK = os.environ["DGTK"]
 SOURCE = os.environ["DGTK_SOURCE"]
 SCENES = os.path.join(SOURCE, "Data", "Scenes")
 EXTRA = os.environ.get("DGTK_EXTRA_MODELS", os.environ.get("DGTK_EXTRA_MODELS_DEFAULT", ""))
+WHOLE = bool(os.environ.get("DGTK_TEST_WHOLE"))  # each sweep as broad as it can be; a thin one sees each kind once
 
 # Models that were read are kept for the runs of this program alone. Where each run has to read them itself, a case
 # says so: DGTK_CACHE=0. Shaders that Mesa compiled stay where they are for all programs.
@@ -146,6 +147,29 @@ def digests(folder):
             with open(path, "rb") as file:
                 found[os.path.relpath(path, folder)] = hashlib.sha256(file.read()).hexdigest()
     return found
+
+
+def copy_scenes(folder, change, wanted=lambda name: name.endswith((".json", ".scene"))):
+    """Sample scenes in folder/Scenes, among the files that they name, those in JSON as `change` leaves what they say.
+
+    Returns their names without extensions. One run of dgtk renders them all.
+    """
+    os.makedirs(os.path.join(folder, "Scenes"))
+    names = []
+    for base, within in ((os.path.dirname(SCENES), ""), (SCENES, "Scenes")):
+        for name in sorted(set(os.listdir(base)) - {"Scenes"}):
+            source, target = os.path.join(base, name), os.path.join(folder, within, name)
+            if base != SCENES or not name.endswith((".json", ".scene")):
+                os.symlink(source, target)
+            elif wanted(name):
+                names.append(os.path.splitext(name)[0])
+                shutil.copy(source, target)
+                if name.endswith(".json"):
+                    scene = load_json(source)
+                    change(scene)
+                    with open(target, "w", encoding="utf-8") as file:
+                        json.dump(scene, file)
+    return names
 
 
 def load_json(path):

@@ -3,10 +3,12 @@
 import glob
 import os
 import queue
+import select
+import signal
 import struct
 import subprocess
 
-from harness import DGTK
+from harness import DGTK, Case
 
 BUILD = os.environ["DGTK_BUILD"]
 SERVER = os.path.join(BUILD, "lib", "libdgtk_many_runs.so")
@@ -35,19 +37,45 @@ class ManyRuns:
             return self.idle.get_nowait()
         except queue.Empty:
             server = subprocess.Popen([DGTK], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                      env={**os.environ, "LD_PRELOAD": f"{SERVER}:{OTHERS}", "LD_BIND_NOW": "1"})
+                                      start_new_session=True, env={**os.environ, "LD_PRELOAD": f"{SERVER}:{OTHERS}", "LD_BIND_NOW": "1"})
             self.all.append(server)
             return server
 
-    def run(self, *arguments):
-        """The finished process, as of subprocess.run(..., capture_output=True)."""
+    def run(self, *arguments, timeout=600):
+        """The finished process, as of subprocess.run(..., capture_output=True, timeout=timeout)."""
         if os.environ.get("DGTK_TEST_SANITIZED"):  # sanitizers start before all others
-            return subprocess.run([DGTK, *arguments], stdin=subprocess.DEVNULL, capture_output=True)
+            return subprocess.run([DGTK, *arguments], stdin=subprocess.DEVNULL, capture_output=True, timeout=timeout)
         server = self._server()
         words = b"".join(os.fsencode(word) + b"\0" for word in arguments)
         server.stdin.write(struct.pack("I", len(words)) + words)
         server.stdin.flush()
+        if not select.select([server.stdout], [], [], timeout)[0]:
+            os.killpg(server.pid, signal.SIGKILL)
+            raise subprocess.TimeoutExpired([DGTK, *arguments], timeout)
         status, *sizes = struct.unpack("iii", server.stdout.read(12))
         texts = [server.stdout.read(size) for size in sizes]
         self.idle.put(server)
         return subprocess.CompletedProcess([DGTK, *arguments], status, *texts)
+
+
+class ManyCase(Case):
+    """Cases in which dgtk runs so often that it is started once for all of a class, but where it has an environment of its own."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.runs = cls.enterClassContext(ManyRuns())
+
+    @classmethod
+    def ran(cls, *arguments, timeout=600):
+        """The finished process, with texts, whatever its status."""
+        done = cls.runs.run(*map(str, arguments), timeout=timeout)
+        done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
+        return done
+
+    def dgtk(self, *arguments, status=0, environment=None, timeout=600):
+        if environment:
+            return super().dgtk(*arguments, status=status, environment=environment, timeout=timeout)
+        done = self.ran(*arguments, timeout=timeout)
+        self.assertEqual(done.returncode, status, f"dgtk {' '.join(map(str, arguments))}\n{done.stdout}\n{done.stderr}")
+        return done

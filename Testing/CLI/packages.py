@@ -17,14 +17,19 @@ def run(*words, **options):
     return done.stdout
 
 
-def make(folder, **settings):
-    """The packages of the build, made in a folder, with settings of CPack: name -> path."""
-    os.makedirs(folder)
+def make(folder, versions=True, **settings):
+    """The packages of the build, made in a folder, with settings of CPack: name -> path. Without versions, libraries ask for none."""
+    os.makedirs(os.path.join(folder, "bin"))
+    if not versions:
+        stand_in = os.path.join(folder, "bin", "dpkg-shlibdeps")
+        with open(stand_in, "w", encoding="utf-8") as file:
+            file.write(f'#!/bin/sh\nexec /usr/bin/python3 "{os.path.dirname(__file__)}/dependencies.py" "$@"\n')
+        os.chmod(stand_in, 0o755)
     config = os.path.join(folder, "config.cmake")
     with open(config, "w", encoding="utf-8") as file:
         file.write(f'include("{BUILD}/CPackConfig.cmake")\n')
         file.writelines(f'set(CPACK_{name} "{value}")\n' for name, value in settings.items())
-    run("cpack", "--config", config, "-B", folder)
+    run("cpack", "--config", config, "-B", folder, env={**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}"})
     return {os.path.basename(path).split("_")[0]: path for path in glob.glob(os.path.join(folder, "*.deb"))}
 
 

@@ -23,32 +23,32 @@ def read_png(path, wanted=None):
         raise AssertionError(f"{path}: {bits} bits, {channels} channels")
     step = channels * bits // 8
     raw = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + width * step)
-    rows = np.zeros((height, width * step), np.uint8)
-    above = np.zeros(width * step, np.uint8)
-    for y in range(height):
-        kind, line = raw[y, 0], raw[y, 1:]
-        if kind == 0:
-            rows[y] = line
-        elif kind == 1:
-            rows[y] = np.cumsum(line.reshape(-1, step), axis=0, dtype=np.uint8).reshape(-1)
-        elif kind == 2:
-            rows[y] = line + above
-        else:
-            out = np.zeros(width * step + step, np.int64)
-            up = np.concatenate([np.zeros(step, np.int64), above.astype(np.int64)])
-            for i, value in enumerate(line):
-                a, b, c = out[i], up[i + step], up[i]
-                if kind == 3:
-                    guess = (a + b) // 2
-                else:
-                    p = a + b - c
-                    pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
-                    guess = a if pa <= pb and pa <= pc else b if pb <= pc else c
-                out[i + step] = (int(value) + guess) & 255
-            rows[y] = out[step:]
-        above = rows[y]
+    rows = unfiltered(raw[:, 0], raw[:, 1:].reshape(height, width, step))
     kind = np.dtype(">u2") if bits == 16 else np.dtype(np.uint8)
     return rows.view(kind).reshape(height, width, channels).astype(np.int64)
+
+
+def unfiltered(kinds, differences):
+    """The bytes of a PNG, of what its filters left of them (rows x columns x bytes of a pixel)."""
+    height, width, step = differences.shape
+    if kinds.max() < 3:
+        rows = differences.copy()
+        for y, kind in enumerate(kinds):
+            rows[y] = np.cumsum(rows[y], axis=0, dtype=np.uint8) if kind == 1 else rows[y] + rows[y - 1] if kind == 2 and y else rows[y]
+        return rows.reshape(height, width * step)
+    y, x = np.mgrid[:height, :width]
+    # a row for each rising diagonal, whose pixels need those of the two before: left, above, corner
+    skew = np.zeros((height + width + 1, height + 1, step), np.int16)
+    skew[y + x + 2, y + 1] = differences
+    kinds = kinds[:, None]
+    for i in range(height + width - 1):
+        first, end = max(0, i - width + 1), min(height, i + 1)
+        kind, a, b, c = kinds[first:end], skew[i + 1, first + 1:end + 1], skew[i + 1, first:end], skew[i, first:end]
+        pa, pb, pc = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+        paeth = np.where((pa <= pb) & (pa <= pc), a, np.where(pb <= pc, b, c))
+        guess = np.where(kind == 4, paeth, np.where(kind == 3, (a + b) >> 1, np.where(kind == 2, b, np.where(kind == 1, a, 0))))
+        skew[i + 2, first + 1:end + 1] = (skew[i + 2, first + 1:end + 1] + guess) & 255
+    return skew[y + x + 2, y + 1].astype(np.uint8).reshape(height, width * step)
 
 
 def read_exr(path):

@@ -140,7 +140,7 @@ class Cameras(Case):
         self.assertLessEqual({("ldi", "surfaces"), ("ldi", "order"), ("ldi", "first = depth"), ("points", "colors")}, checks)
 
     def test_a_wrong_coefficient_is_found(self):
-        self.render("position,depth")
+        self.render("position,depth", "--cameras", "fisheye,mirror")
         edits = Edits(self.path("set"))
 
         def spoil(document):
@@ -154,7 +154,7 @@ class Cameras(Case):
         self.assertIn("BREACH", row)
 
     def test_a_wrong_position_is_found(self):
-        self.render("position")
+        self.render("position", "--cameras", "fisheye,mirror")
         edits = Edits(self.path("set"))
         edits.change("mirror/position/000001.npy", (24, 20), lambda v: v + [0, 1e-6, 0])
         edits.accept()

@@ -4,7 +4,8 @@ import json
 import os
 import subprocess
 
-from harness import DGTK, SCENES, SOURCE, Case, main
+from harness import DGTK, SCENES, SOURCE, main
+from many_runs import ManyCase
 
 HELP = {
     "merge": ("DIR", "Makes one dataset, or export, of a run in shards; names what is missing and exits with 1 then.", [
@@ -108,7 +109,7 @@ LONG = {"render": "Renders images and ground truth of a scene, or of all scenes 
         "export": "Writes a dataset in the format of other people's tools."}
 
 
-class Pages(Case):
+class Pages(ManyCase):
     def test_every_page_of_help(self):
         for command, (arguments, help_, options) in HELP.items():
             with self.subTest(command):
@@ -213,7 +214,7 @@ class Pages(Case):
             self.assertEqual(sum("left" in line for line in lines) > 1, right == "0.01")
 
 
-class Documents(Case):
+class Documents(ManyCase):
     """A wall of 12 x 8 at z = 0 and a square of 1 x 1 at z = 2 before cameras at z = 5 that see 90 degrees with 20 rows: 10 pixels are
     the depth."""
 

@@ -4,13 +4,14 @@ import json
 import os
 import shutil
 
-from harness import Case, main
+from harness import main
+from many_runs import ManyCase
 
 ENTRY = {"bytes": 4, "sha256": "0" * 64, "layer": "depth", "camera": "left", "frame": 0}
 STARTS = ((), ("--replace",), ("--resume",))
 
 
-class HostileFolders(Case):
+class HostileFolders(ManyCase):
     def setUp(self):
         super().setUp()
         os.mkdir(self.path("outside"))

@@ -124,7 +124,7 @@ class ImageFormation(harness.Case):
         self.assertGreater(expected, 8)
         self.assertLess(abs(radius / expected - 1), 0.02)
         # in focus it is a point
-        scene["cameras"][0]["lens"]["focus"] = distance
+        scene["cameras"][0]["lens"].update(focus=distance, exposures=60)
         image = self.picture(scene, "--samples", 4, name="focused")[..., 0].astype(float)
         self.assertEqual((image > 0).sum(), 1)
 
@@ -213,26 +213,28 @@ class ImageFormation(harness.Case):
         return points, v / np.linalg.norm(v, axis=-1, keepdims=True)
 
     def test_physically_based_materials_follow_their_formula(self):
-        for metallic, roughness in [(0, 0.3), (1, 0.5), (0.5, 0.8)]:
-            with self.subTest((metallic, roughness)):
-                base = np.array([0.8, 0.5, 0.2])
-                scene = {"objects": [{"model": "square.obj", "scale": 4, "materials": {"*": {
-                    "diffuse": list(base), "metallic": metallic, "roughness": roughness}}}],
-                    "lights": [{"kind": "point", "position": [1, 0.5, 2], "diffuse": [0.5, 0.5, 0.5],
-                                "specular": [0.5, 0.5, 0.5]}],
-                    "cameras": [camera(80, 60, 4)]}
-                points, v = self.plane_points(80, 60, 4, 10)
-                l = np.array([1, 0.5, 2]) - points
-                l /= np.linalg.norm(l, axis=-1, keepdims=True)
-                n = np.broadcast_to([0.0, 0, 1], l.shape)
-                b = linear(base)
-                f0 = 0.04 * (1 - metallic) + b * metallic
-                expected = 0.5 * self.reflected(n, v, l, b, metallic, roughness) + linear(0.2) * (
-                    b * (1 - metallic) + f0)
-                for renderer, white in (("ray", np.inf), ("vtk", 1)):  # rays keep light above white
-                    got = self.picture(scene, "--renderer", renderer, name=f"pbr{roughness}{renderer}")
-                    self.assertLess(np.abs(got - np.minimum(expected, white)).max(), 2e-4, renderer)
-                self.assertGreater(np.ptp(expected), 0.1)
+        base, kinds = np.array([0.8, 0.5, 0.2]), {"a": (0, 0.3), "b": (1, 0.5), "c": (0.5, 0.8)}
+        os.mkdir(self.path("pbr"))
+        for name, (metallic, roughness) in kinds.items():
+            self.write(f"pbr/{name}.json", json.dumps({"objects": [{"model": "../square.obj", "scale": 4, "materials": {"*": {
+                "diffuse": list(base), "metallic": metallic, "roughness": roughness}}}],
+                "lights": [{"kind": "point", "position": [1, 0.5, 2], "diffuse": [0.5, 0.5, 0.5], "specular": [0.5, 0.5, 0.5]}],
+                "cameras": [camera(80, 60, 4)]}))
+        points, v = self.plane_points(80, 60, 4, 10)
+        l = np.array([1, 0.5, 2]) - points
+        l /= np.linalg.norm(l, axis=-1, keepdims=True)
+        n = np.broadcast_to([0.0, 0, 1], l.shape)
+        for renderer, white in (("ray", np.inf), ("vtk", 1)):  # rays keep light above white
+            self.dgtk("render", self.path("pbr"), "-o", self.path(renderer), "--layers", "color", "--color-format", "exr", "--quiet",
+                      "--renderer", renderer)
+            for name, (metallic, roughness) in kinds.items():
+                with self.subTest((renderer, metallic, roughness)):
+                    b = linear(base)
+                    f0 = 0.04 * (1 - metallic) + b * metallic
+                    expected = 0.5 * self.reflected(n, v, l, b, metallic, roughness) + linear(0.2) * (b * (1 - metallic) + f0)
+                    got = self.read(self.path(renderer, name, "c", "color", "000000.exr"))
+                    self.assertLess(np.abs(got - np.minimum(expected, white)).max(), 2e-4)
+                    self.assertGreater(np.ptp(expected), 0.1)
 
     def environment(self, name, pixels):
         path = self.path(name + ".exr")
@@ -242,22 +244,22 @@ class ImageFormation(harness.Case):
     def test_a_uniform_environment_lights_evenly(self):
         light = np.array([0.3, 0.5, 0.7], np.float32)
         base = np.array([0.6, 0.5, 0.4])
-        scene = {"objects": [{"model": "square.obj", "scale": 2, "materials": {"*": {
-            "diffuse": list(base), "metallic": 0, "roughness": 1}}}],
-            "lights": [{"enabled": False}],
+        # side by side, a matt one and a white mirror
+        objects = [{"model": "square.obj", "position": [x, 0, 0], "materials": {"*": material}} for x, material in (
+            (-1.5, {"diffuse": list(base), "metallic": 0, "roughness": 1}),
+            (1.5, {"diffuse": [1, 1, 1], "metallic": 1, "roughness": 0}))]
+        scene = {"objects": objects, "lights": [{"enabled": False}],
             "environment": self.environment("even", np.broadcast_to(light, (32, 64, 3))),
             "cameras": [camera(60, 60, 6)]}
         got = self.picture(scene)
         self.assertLess(np.abs(got[2, 2] - light).max(), 1e-3)  # the background
-        middle = got[30, 30]
+        middle = got[30, 15]
         # Lambert's part gives base * light less what is mirrored, and that is mirrored at full strength
         share = (middle - linear(base) * light) / ((1 - linear(base)) * light)
         self.assertTrue(np.all(share > 0.01) and np.all(share < 0.08), share)
         self.assertLess(np.ptp(share), 0.003)  # the same reflectance in every channel
         # all light comes back from a white metal
-        scene["objects"][0]["materials"]["*"].update(diffuse=[1, 1, 1], metallic=1, roughness=0)
-        got = self.picture(scene, name="mirror")
-        self.assertLess(np.abs(got[30, 30] / light - 1).max(), 0.01)
+        self.assertLess(np.abs(got[30, 45] / light - 1).max(), 0.01)
 
     def test_a_mirror_shows_the_environment_where_it_lies(self):
         height = 128
@@ -268,20 +270,18 @@ class ImageFormation(harness.Case):
                               "materials": {"*": {"diffuse": [1, 1, 1], "metallic": 1, "roughness": 0}}}],
                  "lights": [{"enabled": False}], "environment": self.environment("axes", (d + 1) / 2),
                  "cameras": [camera(120, 120, 8)]}
-        for degrees in [0, 90]:
-            with self.subTest(degrees):
-                scene["environment"]["rotation"] = degrees
-                got = self.picture(scene, name=f"axes{degrees}")
-                _, v = self.plane_points(120, 120, 8, 10)
-                turn = math.radians(-degrees)
-                R = np.array([[math.cos(turn), 0, math.sin(turn)], [0, 1, 0], [-math.sin(turn), 0, math.cos(turn)]])
-                mirrored = v * [-1, -1, 1]  # of the view vector about +z
-                border = np.zeros((120, 120), bool)
-                border[40:80, 40:80] = True
-                inner = np.zeros_like(border)
-                inner[48:72, 48:72] = True
-                self.assertLess(np.abs(got - (-v @ R.T + 1) / 2)[~border].max(), 0.004)
-                self.assertLess(np.abs(got - (mirrored @ R.T + 1) / 2)[inner].max(), 0.02)
+        scene["environment"]["rotation"] = 50
+        got = self.picture(scene)
+        _, v = self.plane_points(120, 120, 8, 10)
+        turn = math.radians(-50)
+        R = np.array([[math.cos(turn), 0, math.sin(turn)], [0, 1, 0], [-math.sin(turn), 0, math.cos(turn)]])
+        mirrored = v * [-1, -1, 1]  # of the view vector about +z
+        border = np.zeros((120, 120), bool)
+        border[40:80, 40:80] = True
+        inner = np.zeros_like(border)
+        inner[48:72, 48:72] = True
+        self.assertLess(np.abs(got - (-v @ R.T + 1) / 2)[~border].max(), 0.004)
+        self.assertLess(np.abs(got - (mirrored @ R.T + 1) / 2)[inner].max(), 0.02)
 
     def test_normal_and_bump_maps_turn_the_normal(self):
         lamp = {"kind": "directional", "position": [1, 2, 3], "target": [0, 0, 0]}
@@ -439,11 +439,10 @@ class ImageFormation(harness.Case):
         scene["cameras"][0]["lens"]["exposures"] = 6
         layers = "color,color_sharp,color_noisy,depth_noisy,tiles,depth,objects,alpha"
         first = self.render(scene, "--tile", "32x24", "--frames", "0:1", "--samples", 2, layers=layers, name="a")
-        for name, options, threads in [("b", ("--frames", "0:1"), 1), ("c", ("--frames", "0:1", "--gl", "osmesa"), 3)]:
-            second = self.render(scene, "--tile", "32x24", "--samples", 2, *options, layers=layers, name=name,
-                                 threads=threads)
-            self.assert_same_files(first, second)
-        third = self.render(scene, "--tile", "19x1000", "--samples", 2, "--frames", "0:1", layers=layers, name="d")
+        second = self.render(scene, "--tile", "32x24", "--frames", "0:1", "--samples", 2, layers=layers, name="b", threads=1)
+        self.assert_same_files(first, second)
+        third = self.render(scene, "--tile", "19x1000", "--samples", 2, "--frames", "0:1", "--gl", "osmesa", layers=layers, name="c",
+                            threads=3)
         names = [n for n in harness.digests(third) if "/tiles/" in n] + [
             n for n in harness.digests(first) if "/tiles/" in n] + ["manifest.json"]
         self.assert_same_files(first, third, ignore=names)

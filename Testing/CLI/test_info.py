@@ -5,7 +5,8 @@ import math
 import os
 
 import numpy
-from harness import EXTRA, SCENES, SOURCE, Case, load_json, main, needs_samples
+from harness import EXTRA, SCENES, SOURCE, load_json, main, needs_samples
+from many_runs import ManyCase
 
 TRUTH = os.path.join(EXTRA, "TRUTH.json")
 
@@ -14,7 +15,7 @@ def rounded(value):
     return float(f"{value:.4g}")
 
 
-class Models(Case):
+class Models(ManyCase):
     def info(self, path):
         return json.loads(self.dgtk("info", path, "--json").stdout)
 
@@ -78,7 +79,7 @@ class Models(Case):
             "two_sided_surfaces": 1, "lines": 3, "frames": 1, "animations": [], "animations_beside": []})
 
 
-class Scenes(Case):
+class Scenes(ManyCase):
     def test_cameras_are_those_of_the_first_frame(self):
         self.write("q.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n")
         scene = self.write("s.json", json.dumps({

@@ -10,7 +10,9 @@ import tempfile
 import zlib
 
 import numpy
-from harness import DGTK, SCENES, Case, load_json, main
+
+from harness import DGTK, SCENES, Case, copy_scenes, load_json, main
+from pictures import read_png
 
 RECORD = numpy.dtype([("rgba", "u1", 4), ("depth", "<f8"), ("splat", "<u4")])
 
@@ -73,36 +75,6 @@ def read_deep_exr(path):
             samples[name].append(numpy.frombuffer(line, kind, table[-1], begin))
             begin += table[-1] * numpy.dtype(kind).itemsize
     return counts, {name: numpy.concatenate(lines) for name, lines in samples.items()}
-
-
-def read_png(path):
-    """8-bit gray or RGB without interlacing."""
-    with open(path, "rb") as file:
-        data = file.read()
-    at, body = 8, b""
-    while at < len(data):
-        (size,) = struct.unpack_from(">I", data, at)
-        kind, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack_from(">IIBB", content)
-            assert depth == 8
-            channels = {0: 1, 2: 3}[color]
-        body += content if kind == b"IDAT" else b""
-        at += size + 12
-    lines = numpy.frombuffer(zlib.decompress(body), numpy.uint8).reshape(height, width * channels + 1)
-    out = numpy.zeros((height + 1, (width + 1) * channels), int)
-    for y in range(height):
-        rule, line = lines[y, 0], lines[y, 1:].astype(int)
-        row, above = out[y + 1], out[y]
-        if rule == 2:
-            row[channels:] = (line + above[channels:]) % 256
-            continue
-        for i in range(width * channels):
-            left, up, corner = row[i], above[i + channels], above[i]
-            guess = left + up - corner
-            near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))[2]
-            row[i + channels] = (line[i] + (0, left, up, (left + up) // 2, near)[rule]) % 256
-    return out[1:, channels:].reshape(height, width, channels)
 
 
 def read_ids(path, shape):
@@ -172,43 +144,43 @@ class Layers(Case):
                 self.assertLess(abs(value - color[rows[i], columns[i]]).max(), 3)  # of 255: each record is rounded
 
     def test_first_layer_is_what_the_other_layers_say(self):
-        for scene, camera, frame in (("demo.json", "left", 1), ("fig_5_2_trees_grass.json", "camera", 0),
-                                     ("fig_4_7_stereo.json", "left", 0)):
-            with self.subTest(scene=scene):
-                folder = self.render(scene, scene, "--cameras", camera, "--frames", frame, "--size", "160x120",
-                                     "--ldi-format", "ldi,exr", "--triangles-format", "npy")
-                counts = self.check_first(os.path.join(folder, camera), frame)
-                print(f"{scene}: {counts.sum()} surfaces, at most {counts.max()} in a pixel")
-                self.assertGreater(counts.max(), 3)
+        """One run for all: what deep files need takes longer to load than to write them."""
+        seen = {"demo": "left", "fig_5_2_trees_grass": "camera", "fig_4_7_stereo": "left", "glass": "c"}
 
-    def test_glass_is_a_surface_with_a_shade_and_an_opacity_of_its_own(self):
-        models = os.path.join(SCENES, "..", "Models")
-        scene = {"objects": [{"name": "room", "model": os.path.join(models, "room.ac")},
-                             {"name": "ball", "model": os.path.join(models, "ball.ac"), "position": [0, 0.6, 0.6],
+        def frame_1_of_one_camera(scene):
+            scene["keyFrames"] = [0, 1]
+            scene["cameras"] = [camera for camera in scene["cameras"] if camera["name"] in seen.values()]
+
+        copy_scenes(self.folder, frame_1_of_one_camera, lambda name: os.path.splitext(name)[0] in seen)
+        scene = {"keyFrames": [0, 1],
+                 "objects": [{"name": "room", "model": "../Models/room.ac"},
+                             {"name": "ball", "model": "../Models/ball.ac", "position": [0, 0.6, 0.6],
                               "scale": [2, 2, 2], "materials": {"*": {"opacity": 0.4}}},
-                             {"name": "crate", "model": os.path.join(models, "crate.ac"), "position": [0.2, 0, -0.6]}],
+                             {"name": "crate", "model": "../Models/crate.ac", "position": [0.2, 0, -0.6]}],
                  "cameras": [{"name": "c", "eye": [0, 1.2, 2.2], "lookAt": [0, 0.6, 0], "fovY": 50, "near": 0.1, "far": 50}]}
-        self.dgtk("render", self.write("s.json", json.dumps(scene)), "-o", self.path("d"), "--quiet", "--layers",
-                  "color,depth,objects,parts,triangles,ldi", "--size", "120x90", "--ldi-format", "ldi,exr")
-        self.check_first(self.path("d", "c"), 0)
-        counts, records = read_ldi(self.path("d", "c", "ldi", "000000.ldi"))
-        glass = (records["rgba"][:, 3] == 102)[firsts(counts)[1]].sum()
-        self.assertGreater(glass, 200)
-
-    def test_images_of_several_canonical_tiles(self):
-        folder = self.render("fig_4_7_stereo.json", "wide", "--cameras", "left", "--size", "4200x24", "--ldi-format",
-                             "ldi,exr", layers="depth,objects,parts,triangles,ldi")
-        self.check_first(os.path.join(folder, "left"), 0)
+        self.write(os.path.join("Scenes", "glass.json"), json.dumps(scene))
+        folder = self.render(self.path("Scenes"), "d", "--frames", 1, "--size", "100x75", "--ldi-format", "ldi,exr", "--triangles-format", "npy")
+        for name, camera in seen.items():
+            with self.subTest(scene=name):
+                counts = self.check_first(os.path.join(folder, name, camera), 1)
+                print(f"{name}: {counts.sum()} surfaces, at most {counts.max()} in a pixel")
+                self.assertGreater(counts.max(), 3)
+        # glass is a surface with a shade and an opacity of its own
+        counts, records = read_ldi(os.path.join(folder, "glass", "c", "ldi", "000001.ldi"))
+        self.assertGreater((records["rgba"][:, 3] == 102)[firsts(counts)[1]].sum(), 200)
 
     def test_bytes_do_not_depend_on_threads_tiles_or_time(self):
-        options = ("--cameras", "left", "--frames", "2", "--size", "160x120", "--ldi-format", "ldi,exr")
-        one = self.render("demo.json", "one", "--threads", "1", *options, layers="ldi")
-        two = self.render("demo.json", "two", "--threads", "5", "--tile", "33x17", *options, layers="ldi")
+        """Of images of several canonical tiles, too."""
+        options = ("--cameras", "left", "--frames", "2", "--size", "4200x12", "--ldi-format", "ldi,exr")
+        layers = "depth,objects,parts,triangles,ldi"
+        one = self.render("demo.json", "one", "--threads", "1", *options, layers=layers)
+        two = self.render("demo.json", "two", "--threads", "5", "--tile", "33x17", *options, layers=layers)
         self.assert_same_files(one, two)
+        self.check_first(os.path.join(one, "left"), 2)
 
     def test_one_pass_and_many_passes_give_the_same(self):
         """OpenGL without storage buffers draws a rank at a time."""
-        options = ("render", os.path.join(SCENES, "demo.json"), "--quiet", "--cameras", "left", "--frames", "1", "--size", "160x120",
+        options = ("render", os.path.join(SCENES, "demo.json"), "--quiet", "--cameras", "left", "--frames", "1", "--size", "80x60",
                    "--layers", "ldi", "--renderer", "vtk")
         self.dgtk(*options, "-o", self.path("one"))
         self.dgtk(*options, "-o", self.path("many"),
@@ -235,10 +207,10 @@ class Layers(Case):
         self.assertGreater((blurred != sharp).any(axis=-1).mean(), 0.5)
 
     def test_first_surface_is_the_same_whichever_engine_decides(self):
-        for engine in ("ray", "raster"):
-            folder = self.render("demo.json", engine, "--cameras", "left", "--frames", "1", "--size", "160x120", "--ldi-format",
-                                 "ldi,exr", "--triangles-format", "npy", "--visibility", engine)
-            self.check_first(os.path.join(folder, "left"), 1)
+        """Rays decide above."""
+        folder = self.render("demo.json", "d", "--cameras", "left", "--frames", "1", "--size", "80x60", "--ldi-format", "ldi,exr",
+                             "--triangles-format", "npy", "--visibility", "raster")
+        self.check_first(os.path.join(folder, "left"), 1)
 
 
 class Warp(Case):
@@ -369,19 +341,28 @@ class Warp(Case):
 class WarpToOthers(Case):
     """A wall before cameras of several kinds, the first of which moves."""
 
-    def setUp(self):
-        super().setUp()
-        self.write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+    @classmethod
+    def setUpClass(cls):
+        cls.dataset = tempfile.mkdtemp(prefix="dgtk-cli-")
+        cls.addClassCleanup(shutil.rmtree, cls.dataset, ignore_errors=True)
+        with open(os.path.join(cls.dataset, "wall.obj"), "w", encoding="ascii") as file:
+            file.write("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
         common = {"width": 32, "height": 24, "near": 1, "far": 50, "eye": [0, 0, 5], "lookAt": [0, 0, 0]}
         cameras = [{**common, "name": "moving", "eye": {"keys": [[0, [1, 0, 5]], [1, [0, 0, 5]]]},
                     "lookAt": {"keys": [[0, [1, 0, 0]], [1, [0, 0, 0]]]}},
                    {**common, "name": "bent", "distortion": [0.1, 0, 0, 0]}, {**common, "name": "flat", "model": "orthographic", "viewHeight": 4},
                    {**common, "name": "round", "model": "fisheye", "fovY": 120}, {**common, "name": "panorama", "model": "equirectangular"},
                    {**common, "name": "rolling", "rollingShutter": {"duration": 0.5, "direction": "down"}}]
-        scene = self.write("s.json", json.dumps({"objects": [{"model": "wall.obj"}], "cameras": cameras}))
-        options = ("--quiet", "--visibility", "ray", "--layers")
-        self.dgtk("render", scene, "-o", self.path("d"), *options, "ldi", "--cameras", "moving")
-        self.dgtk("render", scene, "-o", self.path("all"), *options, "depth", "--frames", "1")
+        scene = os.path.join(cls.dataset, "s.json")
+        with open(scene, "w", encoding="utf-8") as file:
+            json.dump({"objects": [{"model": "wall.obj"}], "cameras": cameras}, file)
+        for name, *options in (("d", "ldi", "--cameras", "moving"), ("all", "depth", "--frames", "1")):
+            subprocess.run([DGTK, "render", scene, "-o", os.path.join(cls.dataset, name), "--quiet", "--visibility", "ray", "--layers", *options],
+                           check=True, capture_output=True)
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(self.dataset, self.folder, dirs_exist_ok=True)
         self.ldi = self.path("d", "moving", "ldi", "000001.ldi")
 
     def entries(self, folder):

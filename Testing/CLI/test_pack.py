@@ -7,7 +7,8 @@ import signal
 import struct
 import subprocess
 
-from harness import DGTK, Case, digests, load_json, main
+from harness import DGTK, digests, load_json, main
+from many_runs import ManyCase
 
 MESH = "vt 0 0\nvt 1 0\nvt 1 1\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1/1 2/2 3/3\n"
 LAYERS = ("--layers", "color,depth,objects,classes,pov", "--size", "48x36", "--quiet")
@@ -27,7 +28,7 @@ def gltf():
     return json.dumps(document), points
 
 
-class Pack(Case):
+class Pack(ManyCase):
     def put(self, name, contents):
         path = self.path("home", name)
         os.makedirs(os.path.dirname(path), exist_ok=True)

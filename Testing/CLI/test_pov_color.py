@@ -3,7 +3,6 @@
 import json
 import os
 import shutil
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
@@ -65,10 +64,11 @@ class Color(Case):
         with open(os.path.join(SCENES, "cameras_all_kinds.json"), encoding="utf-8") as file:
             scene = json.load(file)
         scene["objects"] = [{**thing, "model": os.path.join(SCENES, thing["model"])} for thing in scene["objects"] if thing["name"] != "tree"]
-        for camera, size in (("matrix", "200x125"), ("orthographic", "150x150"), ("zoom", "200x150")):
+        cameras = ("matrix", "orthographic", "zoom")
+        folder = self.render(self.write("p.json", json.dumps(scene)), "p", "--renderer", "povray", "--layers", "color,position,objects",
+                             "--pov-position-colors=" + ",".join(map(str, box)), "--cameras", ",".join(cameras), "--frames", "3", "--size", "200x150")
+        for camera in cameras:
             with self.subTest(camera):
-                folder = self.render(self.write("p.json", json.dumps(scene)), camera, "--renderer", "povray", "--layers", "color,position,objects",
-                                     "--pov-position-colors=" + ",".join(map(str, box)), "--cameras", camera, "--frames", "3", "--size", size)
                 color = pictures.read_png(os.path.join(folder, camera, "color", "000003.png"), (16, 3))
                 position = numpy.load(os.path.join(folder, camera, "position", "000003.npy"))
                 ids = ids_of(read_pnm(os.path.join(folder, camera, "objects", "000003.ppm")))
@@ -89,10 +89,14 @@ class Color(Case):
                 "cameras": [{"name": "c", "width": 160, "height": 120, "fovY": 40, "eye": [3, 3.5, 7], "lookAt": [0, 0.7, 0]}]}
 
     def test_light_as_vtk_has_it(self):
-        with ThreadPoolExecutor(len(LIGHTS)) as pool:
-            drawn = dict(zip(LIGHTS, pool.map(self.draw_both, LIGHTS)))
-        for kind, (vtk, pov) in drawn.items():
+        os.mkdir(self.path("lit"))
+        for kind, light in LIGHTS.items():
+            self.write(os.path.join("lit", kind + ".json"), json.dumps(self.lit(light)))
+        both = (self.render(self.path("lit"), "vtk", "--layers", "color,objects", "--visibility", "ray"),
+                self.render(self.path("lit"), "pov", "--layers", "color", "--renderer", "povray"))
+        for kind in LIGHTS:
             with self.subTest(kind):
+                vtk, pov = (os.path.join(folder, kind) for folder in both)
                 a, b = (pictures.read_png(os.path.join(folder, "c", "color", "000000.png"), (16, 3)) / 257 for folder in (vtk, pov))
                 within = inside(ids_of(read_pnm(os.path.join(vtk, "c", "objects", "000000.ppm"))))
                 self.keep(vtk, pov)
@@ -100,12 +104,6 @@ class Color(Case):
                 print(f"{kind}: {difference.mean():.3f} of 255 in the mean, {(difference > 8).mean() * 100:.2f} % above 8, most {difference.max():.1f}")
                 self.assertGreater(a[within].std(), 10)
                 self.assertLess(difference.mean(), COLOR_TOLERANCE)
-
-    def draw_both(self, kind):
-        name = kind.replace(" ", "_")
-        scene = self.write(name + ".json", json.dumps(self.lit(LIGHTS[kind])))
-        return (self.render(scene, name + "_vtk", "--layers", "color,objects", "--visibility", "ray"),
-                self.render(scene, name + "_pov", "--layers", "color", "--renderer", "povray"))
 
     def test_normals_that_face_away(self):
         """Where the interpolated normal of a coarse model faces away from the viewer: from outside and from inside, mirrored, in
@@ -155,7 +153,8 @@ class Color(Case):
         """Leaves the pictures in the build folder, for looking."""
         os.makedirs(PICTURES, exist_ok=True)
         for folder in folders:
-            shutil.copy(os.path.join(folder, "c", "color", "000000.png"), os.path.join(PICTURES, os.path.basename(folder) + ".png"))
+            kind, renderer = os.path.basename(folder).replace(" ", "_"), os.path.basename(os.path.dirname(folder))
+            shutil.copy(os.path.join(folder, "c", "color", "000000.png"), os.path.join(PICTURES, f"{kind}_{renderer}.png"))
 
 
 if __name__ == "__main__":

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """POV-Ray's picture of flat ids is the object map, on all sample models and scenes, but within 1/64 pixel of an edge."""
+import glob
 import json
 import os
-import shutil
 import subprocess
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
-from harness import DGTK, EXTRA, SCENES, SOURCE, Case, load_json, main, needs_povray
+from harness import DGTK, EXTRA, SCENES, SOURCE, Case, copy_scenes, load_json, main, needs_povray
+from pictures import read_png
 from pov_scene import Scene, Screen, ids_of, read_pnm
-from test_ldi import read_png
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
 EXTENSIONS = (".ac", ".acc", ".md2", ".3ds", ".pov", ".obj", ".gltf", ".stl", ".ply", ".off", ".dae", ".fbx")
@@ -18,19 +17,33 @@ SIZE = (160, 120)
 WORKERS = 4  # POV-Ray sleeps for most of a small picture
 
 
-def cameras_around(low, high):
+def cameras_around(low, high, times=1):
     """Three cameras that see a box whole: centred, off-centre with unequal focal lengths and skew, orthographic."""
     centre, radius = (low + high) / 2, numpy.linalg.norm(high - low) / 2
-    width, height = SIZE
+    width, height = (times * size for size in SIZE)
 
     def camera(name, towards, distance, **more):
         eye = centre + radius * distance * numpy.array(towards) / numpy.linalg.norm(towards)
         return {"name": name, "width": width, "height": height, "eye": eye.tolist(), "lookAt": centre.tolist(),
                 "near": 0.5 * radius, "far": 6 * radius, **more}
 
-    return [camera("centred", (0.5, 0.35, 1), 2.9, fovY=42),
-            camera("off-centre", (-0.9, 0.5, -0.7), 3, K=[[190, 9, 62], [0, 145, 71], [0, 0, 1]]),
+    K = (times * numpy.array([[190, 9, 62], [0, 145, 71], [0, 0, 1 / times]])).tolist()
+    return [camera("centred", (0.5, 0.35, 1), 2.9, fovY=42), camera("off-centre", (-0.9, 0.5, -0.7), 3, K=K),
             camera("orthographic", (0.3, 1, 0.6), 2.5, model="orthographic", viewHeight=2.2 * radius)]
+
+
+def side_by_side(models):
+    """A scene of models, of which (path, low, high) are given, as large as the largest, in a square that all cameras see from its sides."""
+    largest = max(numpy.linalg.norm(high - low) / 2 for _, low, high in models)
+    across, along = numpy.array([0.81, 0, -0.59]), numpy.array([-0.17, 0.96, -0.23])
+    things, side, step = [], int(numpy.ceil(numpy.sqrt(len(models)))), 2 * largest
+    for i, (path, low, high) in enumerate(models):
+        scale = largest / (numpy.linalg.norm(high - low) / 2)
+        place = step * ((i % side - (side - 1) / 2) * across + (i // side - (side - 1) / 2) * along)
+        things.append({"name": f"{i} {os.path.basename(path)}", "model": path, "scale": [scale] * 3,
+                       "position": (place - scale * (low + high) / 2).tolist()})
+    reach = numpy.ones(3) * (step * (side - 1) / numpy.sqrt(2) + largest) / numpy.sqrt(3)
+    return {"version": 1, "objects": things, "cameras": cameras_around(-reach, reach, side)}
 
 
 @needs_povray
@@ -57,38 +70,31 @@ class FlatIds(Case):
             self.assertGreater(len(pixels), 4)
             self.assertEqual(not all(explained), far, f"{name}: {sum(explained)} of {len(pixels)}")
 
-    def compare(self, name, scene, cameras, frame, size=None):
-        """Renders and draws; returns lines that say what differs without an edge near, and counts."""
-        folder = self.path(name)
-        self.dgtk("render", scene, "-o", folder, "--quiet", "--visibility", "ray", "--layers", "color,objects,pov", "--renderer",
-                  "povray", "--pov-flat-ids", "--threads", WORKERS, "--frames", frame, "--cameras", ",".join(cameras),
-                  *(["--size", size] if size else []))
-        records = {c["name"]: c for c in load_json(os.path.join(folder, "cameras.json"))["cameras"]}
-        far, counts = [], numpy.zeros(3, int)
-        for camera in cameras:
-            expected = ids_of(read_pnm(os.path.join(folder, camera, "objects", f"{frame:06d}.ppm")))
-            drawn = ids_of(read_png(os.path.join(folder, camera, "color", f"{frame:06d}.png")))
-            differing = numpy.argwhere(drawn != expected)
-            counts += (expected.size, (expected > 0).sum(), len(differing))
-            if len(differing):
-                screen = Screen(Scene(os.path.join(folder, camera, "pov", f"{frame:06d}.pov")), records[camera])
-                for row, column in differing:
-                    centre = numpy.array([column + 0.5, row + 0.5])
-                    if not screen.near_edge(centre) and not screen.near_texel(centre):
-                        far.append(f"{name} {camera}: pixel ({column}, {row}) is {drawn[row, column]}, not {expected[row, column]}")
-        shutil.rmtree(folder)
-        return far, counts
+    def compare(self, scenes, out, cameras, frame=0, options=()):
+        """Renders and draws a scene, or all of a folder; returns what differs without an edge near, and counts of each picture.
 
-    def model(self, path):
-        """A scene with a model alone; nothing for one without surfaces."""
-        info = self.dgtk_json("info", path, damaged=path not in self.readable)
-        if not info or not info["triangles"]:
-            return [], numpy.zeros(3, int)
-        low, high = numpy.array(info["bounds"])
-        name = os.path.basename(path).replace(" ", "_") + f"_{abs(hash(path)) % 10**6}"
-        scene = self.write(name + ".json", json.dumps({"version": 1, "objects": [{"name": "model", "model": path}],
-                                                       "cameras": cameras_around(low, high)}))
-        return self.compare(name, scene, ["centred", "off-centre", "orthographic"], 0)
+        `cameras`: of each of the folders that the run makes, below `out`.
+        """
+        command = ("render", scenes, "--quiet", "--visibility", "ray", "--pov-flat-ids", "--threads", WORKERS, "--frames", frame, *options)
+        self.dgtk(*command, "-o", self.path(out), "--layers", "color,objects", "--renderer", "povray")
+        far, counts = [], {}
+        for name in [os.path.join(folder, camera) for folder in cameras for camera in cameras[folder]]:
+            expected = ids_of(read_pnm(self.path(out, name, "objects", f"{frame:06d}.ppm")))
+            drawn = ids_of(read_png(self.path(out, name, "color", f"{frame:06d}.png"), (8, 3)))
+            differing = numpy.argwhere(drawn != expected)
+            counts[name] = numpy.array([expected.size, (expected > 0).sum(), len(differing)]), numpy.unique(expected)
+            if len(differing):
+                written = self.path(out + " as scenes")
+                if not os.path.exists(written):
+                    self.dgtk(*command, "-o", written, "--layers", "pov")
+                folder, camera = os.path.split(os.path.join(written, name))
+                record = next(c for c in load_json(os.path.join(folder, "cameras.json"))["cameras"] if c["name"] == camera)
+                screen = Screen(Scene(os.path.join(folder, camera, "pov", f"{frame:06d}.pov")), record)
+            for row, column in differing:
+                centre = numpy.array([column + 0.5, row + 0.5])
+                if not screen.near_edge(centre) and not screen.near_texel(centre):
+                    far.append(f"{name}: pixel ({column}, {row}) is {drawn[row, column]}, not {expected[row, column]}")
+        return far, counts
 
     def dgtk_json(self, *arguments, damaged=False):
         """What dgtk prints; nothing for what may be damaged, and is."""
@@ -96,12 +102,11 @@ class FlatIds(Case):
         self.assertTrue(damaged or done.returncode == 0, done.stderr)
         return json.loads(done.stdout) if done.returncode == 0 else None
 
-    def check(self, work):
-        with ThreadPoolExecutor(WORKERS) as pool:
-            results = list(pool.map(lambda job: job(), work))
-        counts = sum(counts for _, counts in results)
-        far = [line for lines, _ in results for line in lines]
-        print(f"{len(results)} scenes: {counts[2]} of {counts[0]} pixels ({counts[1]} on surfaces) differ, {len(far)} not at an edge")
+    def check(self, *found):
+        far = [line for lines, _ in found for line in lines]
+        counts = sum(counted for _, pictures in found for counted, _ in pictures.values())
+        print(f"{sum(len(pictures) for _, pictures in found)} pictures: {counts[2]} of {counts[0]} pixels ({counts[1]} on surfaces) differ, "
+              f"{len(far)} not at an edge")
         self.assertGreater(counts[1], 0.02 * counts[0])
         self.assertEqual(far, [])
 
@@ -111,49 +116,55 @@ class FlatIds(Case):
         low, high = numpy.array(self.dgtk_json("info", model)["bounds"])
         radius = numpy.linalg.norm(high - low) / 2
         cameras = [{**camera, "near": 2.4 * radius, "far": 3.1 * radius} for camera in cameras_around(low, high)]
-        scene = self.write("cut.json", json.dumps({"version": 1, "objects": [{"name": "model", "model": model}], "cameras": cameras}))
-        names = [camera["name"] for camera in cameras]
-        far, counts = self.compare("cut", scene, names, 0)
+        scene = {"version": 1, "objects": [{"name": "model", "model": model}], "cameras": cameras}
+        names = {"": [camera["name"] for camera in cameras]}
+        far, cut = self.compare(self.write("cut.json", json.dumps(scene)), "cut", names)
         self.assertEqual(far, [])
-        self.assertGreater(counts[1], 1000)
+        seen = sum(counts[1] for counts, _ in cut.values())
+        self.assertGreater(seen, 1000)
         for camera in cameras:  # both planes cut something away
             camera.update(near=0.5 * radius, far=6 * radius)
-        whole = self.write("whole.json", json.dumps({"version": 1, "objects": [{"name": "model", "model": model}], "cameras": cameras}))
-        self.assertGreater(self.compare("whole", whole, names, 0)[1][1], counts[1] + 100)
+        _, whole = self.compare(self.write("whole.json", json.dumps(scene)), "whole", names)
+        self.assertGreater(sum(counts[1] for counts, _ in whole.values()), seen + 100)
 
     def test_models(self):
+        """Nine of like sizes in a scene: POV-Ray takes longer to start than to draw one."""
         paths = sorted(os.path.join(root, name) for top in (MODELS, EXTRA) if top for root, _, names in os.walk(top)
                        for name in names if os.path.splitext(name)[1].lower() in EXTENSIONS)
         self.assertGreater(len(paths), 15)
         truth = os.path.join(EXTRA, "TRUTH.json")
-        self.readable = {path for path in paths if path.startswith(MODELS)}
-        self.readable |= {os.path.join(EXTRA, name) for name, counts in (load_json(truth).items() if EXTRA else ()) if counts and counts.get("triangles")}
-        self.check([lambda path=path: self.model(path) for path in paths])
+        readable = {path for path in paths if path.startswith(MODELS)}
+        readable |= {os.path.join(EXTRA, name) for name, counts in (load_json(truth).items() if EXTRA else ()) if counts and counts.get("triangles")}
+        models = []
+        for path in paths:
+            info = self.dgtk_json("info", path, damaged=path not in readable)
+            if info and info["triangles"]:
+                models.append((path, *numpy.array(info["bounds"])))
+        models.sort(key=lambda model: numpy.linalg.norm(model[2] - model[1]))
+        groups = {f"{i:03d}": models[i:i + 9] for i in range(0, len(models), 9)}
+        os.mkdir(self.path("groups"))
+        for name, group in groups.items():
+            self.write(f"groups/{name}.json", json.dumps(side_by_side(group)))
+        far, counts = self.compare(self.path("groups"), "models", {name: ["centred", "off-centre", "orthographic"] for name in groups})
+        for name, (_, seen) in counts.items():
+            self.assertEqual(set(range(1, len(groups[name.split("/")[0]]) + 1)) - set(seen), set(), f"{name}: not all models are seen")
+        self.check((far, counts))
 
-    def sharp(self, path):
-        """The scene, without what only the built-in renderer has: motion blur, depth of field, rolling shutters."""
-        text = load_json(path) if path.endswith(".json") else {"cameras": []}
-        if not any({"shutter", "rollingShutter", "lens"} & set(camera) for camera in text["cameras"]):
-            return path
-        for camera in text["cameras"]:
-            camera.pop("shutter", None)
-            camera.pop("lens", None)
-            camera.pop("rollingShutter", None)
-        for thing in text["objects"]:
-            thing["model"] = os.path.join(SCENES, thing["model"])
-        return self.write("sharp_" + os.path.basename(path), json.dumps(text))
+    @staticmethod
+    def sharp(scene):
+        """The first camera alone, and without what only the built-in renderer has: motion blur, depth of field, rolling shutters."""
+        scene["cameras"] = [{key: value for key, value in scene["cameras"][0].items() if key not in ("shutter", "lens", "rollingShutter")}]
 
     def test_scenes(self):
-        work = []
-        for name in sorted(os.listdir(SCENES)):
-            if os.path.splitext(name)[1] in (".json", ".scene"):
-                path = self.sharp(os.path.join(SCENES, name))
-                info = self.dgtk_json("info", path)
-                camera = info["cameras"][0]["name"]
-                work.append(lambda path=path, name=name, camera=camera, frame=info["first_frame"]:
-                            self.compare(name.replace(".", "_"), path, [camera], frame, "x".join(map(str, SIZE))))
-        self.assertGreater(len(work), 12)
-        self.check(work)
+        size, found = ("--size", "x".join(map(str, SIZE))), []
+        names = copy_scenes(self.folder, self.sharp, lambda name: name.endswith(".json"))
+        cameras = {name: [load_json(os.path.join(SCENES, name + ".json"))["cameras"][0]["name"]] for name in names}
+        for path in sorted(glob.glob(f"{SCENES}/*.scene")):
+            info = self.dgtk_json("info", path)
+            camera = info["cameras"][0]["name"]
+            found.append(self.compare(path, os.path.basename(path), {"": [camera]}, info["first_frame"], (*size, "--cameras", camera)))
+        self.assertGreater(len(cameras) + len(found), 12)
+        self.check(*found, self.compare(self.path("Scenes"), "scenes", cameras, options=size))
 
 
 if __name__ == "__main__":

@@ -348,7 +348,7 @@ def interrupt():
     os.kill(os.getpid(), signal.SIGINT)
 threading.Thread(target=interrupt, daemon=True).start()
 try:  # pictures of three bands each, six of them
-    dgtk.generate(sys.argv[1], sys.argv[2], layers=["depth", "normal", "ldi"], size=(400, 1500), samples=4)
+    dgtk.generate(sys.argv[1], sys.argv[2], layers=["depth", "normal", "ldi"], size=(160, 1500), samples=4)
 except KeyboardInterrupt:
     whole = [name for _, _, names in os.walk(sys.argv[2]) for name in names if name.endswith(".ldi")]
     print("interrupted", len(whole) < 3, os.path.exists(sys.argv[2] + "/manifest.json"))

@@ -19,8 +19,9 @@ class Threads(Case):
     @measures
     def test_other_threads_run_while_one_renders(self):
         """With the interpreter's lock held, one gap would be all of the time."""
-        scene, size = dgtk.load(DEMO), (1200, 900)
-        for work in (lambda: dgtk.render(scene, "color", size=size, samples=2), lambda: dgtk.render(scene, "ldi", size=size, renderer="vtk"),
+        scene, size = dgtk.load(DEMO), (600, 450)
+        for work in (lambda: [dgtk.render(scene, "color", size=size, samples=2) for _ in range(2)],
+                     lambda: [dgtk.render(scene, "ldi", size=size, renderer="vtk") for _ in range(2)],
                      lambda: [dgtk.load(DEMO) for _ in range(10)]):
             thread = threading.Thread(target=work)
             began = last = time.monotonic()

@@ -45,7 +45,7 @@ class Referee(Case):
     def copy(self, name, number):
         """A copy beside the rendered one: paths of models stay right."""
         target = os.path.join(self.folders, f"{name}{number}")
-        shutil.copytree(os.path.join(self.folders, name), target)
+        shutil.copytree(os.path.join(self.folders, name), target, copy_function=shutil.copyfile)
         self.addCleanup(shutil.rmtree, target, ignore_errors=True)
         return Sound(target)
 

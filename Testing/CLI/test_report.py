@@ -10,7 +10,8 @@ import zlib
 import numpy as np
 
 from browser import Browser, chromium
-from harness import SCENES, SOURCE, Case, load_json, main
+from harness import SCENES, SOURCE, load_json, main
+from many_runs import ManyCase
 from pictures import read_png
 
 HOSTILE = "</script><img src=x onerror=\"document.title='bad'\">&'\""
@@ -84,7 +85,7 @@ def many_frames(source, target, pictures):
         shutil.copy(os.path.join(source, name), target)
 
 
-class Report(Case):
+class Report(ManyCase):
     def render(self, name="data", layers="color,depth,objects,classes,flow_forward,boxes", scene="demo.json", more=()):
         folder = self.path(name)
         self.dgtk("render", os.path.join(SCENES, scene), "-o", folder, "--quiet", "--layers", layers, "--size", "96x72", *more)
@@ -201,9 +202,8 @@ class Report(Case):
             centre = -np.array(record["R"]).T @ np.array(record["t"])
             np.testing.assert_allclose(camera["places"][0][1:4], [centre[0], centre[2], centre[1]], atol=1e-5)
             forward = np.array(record["R"])[2]
-            np.testing.assert_allclose(camera["places"][0][4:], [forward[0], forward[2]], atol=1e-5)
+            np.testing.assert_allclose(camera["places"][0][4:6], [forward[0], forward[2]], atol=1e-5)
             self.assertEqual(camera["model"], record["model"])
-            self.assertAlmostEqual(camera["half"], np.arctan(record["width"] / 2 / record["K"][0][0]), places=5)
 
     def test_pictures_that_cannot_be_read(self):
         """A layer of nothing else has no numbers, not those of nothing."""
@@ -291,7 +291,7 @@ class Report(Case):
         self.assertEqual((model["samples"]["samples"], model["samples"]["touched"], model["samples"]["reasonCount"]), (4, 3, 2))
         self.assertIn("broken", model["notes"][0])
         self.assertEqual(model["seen"]["objects"][0]["scenes"], 2)
-        self.assertEqual(model_of(self.report(self.path("scenes"), "--pictures", "1"))["dataset"]["scenes"], 2)  # the numbers are of more than what is shown
+        self.assertEqual(model_of(self.report(self.path("scenes"), "--pictures", "1", name="scenes/page.html"))["dataset"]["scenes"], 2)  # the numbers are of more than what is shown
 
     def test_documents_beside(self):
         folder = self.render(layers="color,depth,objects,classes,boxes,amodal", more=("--frames", "0"))
@@ -299,6 +299,7 @@ class Report(Case):
         self.dgtk("export", folder, "--format", "coco", "-o", self.path("coco"), "--quiet")
         model = model_of(self.report(folder, "--export", self.path("coco")))
         self.assertTrue(model["verification"]["passed"])
+        self.assertEqual((model["verification"]["same"], model["exports"][0]["same"]), (True, True))
         verification = load_json(os.path.join(folder, "verification.json"))
         for here, there in (("residuals", "residuals"), ("unchecked", "not_checked")):
             self.assertEqual(model["verification"][here], [{key: None if isinstance(value, (list, dict)) else value for key, value in row.items()}
@@ -307,6 +308,14 @@ class Report(Case):
         self.assertEqual((model["exports"][0]["format"], model["exports"][0]["files"]), ("coco", len(stated["files"])))
         self.assertEqual([(one["layer"], one["largest"], one["values"], one["withoutCode"]) for one in model["exports"][0]["layers"]],
                          [(one["layer"], one["largest_rounding"], one["values"], one["without_code"]) for one in stated["layers"]])
+        # of another state of the dataset, and of nobody knows which
+        with open(os.path.join(folder, "manifest.json"), "a", encoding="utf-8") as file:
+            file.write("\n")
+        later = model_of(self.report(folder, "--export", self.path("coco")))
+        self.assertEqual((later["verification"]["same"], later["exports"][0]["same"]), (False, False))
+        del verification["dataset_manifest"]
+        older = self.write("older.json", json.dumps(verification))
+        self.assertIsNone(model_of(self.report(folder, "--verification", older))["verification"]["same"])
 
     def test_plans(self):
         """Cameras and objects from above, with the directions from which objects are seen, for both axes that may be up."""
@@ -330,8 +339,13 @@ class Report(Case):
             for camera in plan["cameras"]:
                 np.testing.assert_allclose([place[1:4] for place in camera["places"]], [from_above(eyes[camera["name"], frame], up) for frame in frames], atol=1e-5)
                 ahead = [next(one["R"][2] for one in cameras if (one["name"], one["frame"]) == (camera["name"], frame)) for frame in frames]
-                np.testing.assert_allclose([place[4:] for place in camera["places"]], from_above(ahead, up)[:, :2], atol=1e-5)
-            self.assertNotIn("half", plan["cameras"][1])
+                np.testing.assert_allclose([place[4:6] for place in camera["places"]], from_above(ahead, up)[:, :2], atol=1e-5)
+            self.assertEqual({len(place) for place in plan["cameras"][1]["places"]}, {6})
+            for place in plan["cameras"][0]["places"]:
+                record = next(one for one in cameras if (one["name"], one["frame"]) == ("a", place[0]))
+                corners = np.array([[x, y, 1] for y in (0, 18) for x in (0, 24)]) @ np.linalg.inv(record["K"]).T @ record["R"]
+                seen = from_above(corners / np.linalg.norm(corners, axis=1, keepdims=True), up)[:, :2]
+                np.testing.assert_allclose(np.reshape(place[6:], (4, 2)), seen, atol=1e-5)
 
             # behind a panorama's middle depths are negative
             depth = np.stack([np.load(os.path.join(folder, f"round/depth/{frame:06d}.npy")) for frame in range(60)])
@@ -353,6 +367,7 @@ class Report(Case):
             for one in plan["objects"]:
                 shown = [frame for frame in frames if placed[frame, one["id"]]["visible"]][:1 if one["static"] else None]
                 self.assertEqual([place[0] for place in one["places"]], shown)
+                self.assertEqual(one["hidden"], [frame for frame in frames if not placed[frame, one["id"]]["visible"]])
                 for place in one["places"]:
                     matrix = np.array(placed[place[0], one["id"]]["matrix"])
                     np.testing.assert_allclose(place[1:4], from_above(matrix[:, 3], up), atol=1e-5)
@@ -398,6 +413,8 @@ class Report(Case):
         self.refused("report", folder, "-o", page, "--pictures", "0", status=2, says="--pictures")
         for name in ("manifest.json", "left/depth/000000.npy"):
             self.refused("report", folder, "-o", os.path.join(folder, name), status=2, says="is a file of the dataset in")
+        for name in ("report.html", "left/depth/report.html", "no/where/report.html"):
+            self.refused("report", folder, "-o", os.path.join(folder, name), status=2, says=f"{name}: lies in the dataset in")
         self.refused("convert", os.path.join(SCENES, "demo.json"), os.path.join(folder, "scene.json"), status=2, says="is a file of the dataset in")
         self.dgtk("verify", folder)
         # a damaged picture is a note, and the rest is there
@@ -414,11 +431,34 @@ class Report(Case):
         self.refused("report", folder, "-o", page, status=3, says="link")
         self.assertFalse(os.path.exists(page))
 
+    def test_each_picture_counts_by_its_own_format(self):
+        """Grey levels are no depths, and linear light is no brightness."""
+        for name, depth, color in (("a", "png", "exr"), ("b", "npy", "png")):
+            self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("scenes", name), "--quiet", "--layers", "color,depth", "--size", "48x36",
+                      "--frames", "0", "--cameras", "left", "--depth-format", depth, "--color-format", color)
+        model = model_of(self.report(self.path("scenes")))
+        layers = {layer["label"]: layer for layer in model["layers"]}
+        values = np.load(self.path("scenes", "b", "left/depth/000000.npy"))
+        finite, found = values[np.isfinite(values)], layers["depth"]["numbers"]
+        self.assertEqual((found["values"], found["nothing"], found["most"]), (finite.size, values.size - finite.size, finite.max()))
+        self.assertLessEqual(layers["depth"]["legend"]["high"], finite.max())
+        luma = luma_of(self.path("scenes", "b", "left/color/000000.png"))
+        self.assertEqual(layers["color"]["brightness"]["values"], luma.size)
+        self.assertAlmostEqual(layers["color"]["brightness"]["mean"], luma.mean(), places=12)
+        self.assertEqual({name: layer["pictures"] for name, layer in layers.items()}, {"color": 1, "depth": 1})
+        self.assertEqual([("covered" in one, "brightness" in one) for one in model["pictures"]], [(False, False), (True, True)])
+
+    def test_surfaces_without_a_value(self):
+        """Drop-outs of a sensor, and what is behind the camera at the next frame, are not empty."""
+        model = model_of(self.report(self.render(layers="depth_noisy,flow_forward", more=("--frames", "0", "--cameras", "left"))))
+        self.assertEqual((["covered" in one for one in model["pictures"]], model["frames"]["emptiest"]), ([False], []))
+
 
 class Page(Report):
     """The same datasets in a browser."""
     test_numbers = test_pictures_that_cannot_be_read = test_fewer_samples_than_pixels = test_subset_and_same_bytes = test_folder_of_scenes = test_documents_beside = test_refusals = None
     test_all_pictures_together_are_of_three_million_samples = test_plans = test_what_is_left_out_of_long_lists = None
+    test_each_picture_counts_by_its_own_format = test_surfaces_without_a_value = None
 
     def setUp(self):
         super().setUp()
@@ -479,8 +519,9 @@ class Page(Report):
             browser.until("document.getElementById('readout').textContent.includes('objects: ')")
             self.assertEqual(browser.problems, [])
             self.assertEqual([url for url in browser.requests if not url.startswith("data:")], ["file://" + page])
-        for width in (360, 1920):
-            with Browser(width, 800, dark=True) as browser:
+        with Browser(360, 800, dark=True) as browser:
+            for width in (360, 1920):
+                browser.resize(width, 800)
                 browser.open(page)
                 self.assertEqual(browser.evaluate("document.documentElement.scrollWidth"), width)
 
@@ -500,6 +541,7 @@ class Page(Report):
             views = model["viewpoints"]
             views.update(views=5 * views["columns"], bins=[0] * (views["columns"] * (views["rows"] - 1)) + [5] * views["columns"])  # all from above
             model["verification"] = {"passed": True, "residuals": [], "unchecked": [{"layer": "masks", "format": "exr", "files": 17}]}
+            model["exports"] = [{"format": "coco", "same": False, "files": 1, "layers": []}]
             model["samples"] = {"samples": 300, "touched": 104, "reasonCount": 104, "reasons": [{"path": f"objects/o{i}", "why": "no room", "times": 1, "example": "4"} for i in range(100)]}
             model["dataset"].update(warnings=[f"warning {i}" for i in range(200)], warningCount=203)
         page = self.changed(self.report(self.render(layers="depth,objects", more=("--frames", "0:1"))), change)
@@ -510,10 +552,11 @@ class Page(Report):
             counts = browser.evaluate(f"[...({card % 'depth'}).querySelectorAll('rect title')].map((one) => Number(one.textContent))")
             self.assertEqual(counts, [3 * 20] + [6] * 55)
             self.assertEqual(browser.evaluate(f"({card % 'depth'}).querySelector('text').textContent"), "≤ 0.38")
+            self.assertIn("eight equal steps an octave", browser.evaluate(f"({card % 'depth'}).querySelector('p').textContent"))
             rows = browser.evaluate(f"[...({card % 'Coverage of viewpoints'}).querySelectorAll('rect')].map((one) => [one.querySelector('title').textContent, Number(one.getAttribute('y'))])")
             self.assertEqual({y for number, y in rows if number == "5"}, {min(y for _, y in rows)})
             listed = browser.evaluate("document.getElementById('check-list').textContent")
-            for words in ("masksexr17", "in 104 of 300 samples, the first 100 of 104 reasons", "Warnings of the renderer (200 of 203)"):
+            for words in ("Verification: does not say of which dataset – 0", "Export coco: of an earlier state, or of another dataset", "masksexr17", "in 104 of 300 samples, the first 100 of 104 reasons", "Warnings of the renderer (200 of 203)"):
                 self.assertIn(words, listed)
             # pictures of one camera: Tab reaches the first of them, and the dialog stays among them
             shown = "[...document.querySelectorAll('.shot')].filter((one) => !one.hidden)"
@@ -551,6 +594,35 @@ class Page(Report):
             self.assertEqual(browser.evaluate("document.querySelectorAll('.shot').length"), 48)
             self.assertLess(browser.evaluate("document.querySelectorAll('.shot img').length"), 48)  # the others wait until they are near
             print("opened in", browser.evaluate("performance.getEntriesByType('navigation')[0].loadEventEnd"), "ms")
+            self.assertEqual(browser.problems, [])
+
+    def test_plan_as_it_is_drawn(self):
+        """Angles that pinholes off centre and rolled see from above, no object where it is hidden; and what has no unit."""
+        view = {"width": 96, "height": 32, "near": 0.1, "far": 50, "eye": [0, 0, 5], "lookAt": [0, 0, 0]}
+        crate = {"name": "crate", "model": os.path.join(SOURCE, "Data/Models/crate.ac"), "visible": {"keys": [[0, True], [2, False], [4, True]]}}
+        cameras = [{**view, "name": "aside", "K": [[60, 0, 8], [0, 60, 16], [0, 0, 1]]}, {**view, "name": "rolled", "fovY": 20, "up": [1, 0, 0]}]
+        scene, folder = self.write("scene.json", json.dumps({"version": 1, "objects": [crate], "cameras": cameras})), self.path("data")
+        self.dgtk("render", scene, "-o", folder, "--quiet", "--visibility", "ray", "--layers", "depth", "--depth-format", "png", "--frames", "0:4")
+        self.dgtk("verify", folder, "--check", "hashes", "--write")
+        with Browser(1400, 900) as browser:
+            browser.open(self.report(folder, "--pictures", "1"))
+            eyes = browser.evaluate("[...document.querySelectorAll('#plan-plot .eye')].map((one) => [one.cx, one.cy].map((place) => place.baseVal.value))")
+            cones = browser.evaluate("[...document.querySelectorAll('#plan-plot .cone')].map((one) => [...one.points].map(({ x, y }) => [x, y]))")
+            for eye, cone, (left, right) in zip(eyes, cones, ((np.arctan(8 / 60), np.arctan(88 / 60)), (np.pi / 18, np.pi / 18)), strict=True):
+                rays = np.array(cone) - eye
+                x, y = rays[np.hypot(*rays.T) > 1].T
+                angles = np.arctan2(x, -y)  # it looks along -z, up in the plan
+                np.testing.assert_allclose((angles.min(), angles.max()), (-left, right), atol=1e-4)
+            drawn = []
+            for frame in range(5):
+                browser.evaluate(f"(() => {{ const slider = document.querySelector('#plan-tools input'); slider.value = {frame}; slider.dispatchEvent(new Event('input')); }})()")
+                drawn.append(browser.evaluate("document.querySelectorAll('#plan-plot [data-object]').length"))
+            self.assertEqual(drawn, [1, 1, 0, 0, 1])
+            self.assertIn("Verification: ✓ passed – 3", browser.evaluate("document.getElementById('check-list').textContent"))
+            browser.evaluate("document.querySelector('.shot').focus()")
+            browser.key("Enter")
+            browser.until("document.querySelector('#view-values td') !== null")
+            self.assertRegex(browser.evaluate("document.querySelector('#view-values td').textContent"), r"^\d+$")
             self.assertEqual(browser.problems, [])
 
 

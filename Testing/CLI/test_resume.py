@@ -9,10 +9,13 @@ import subprocess
 import time
 import unittest
 
+import numpy
+
+import pictures
 from harness import DGTK, SCENES, Case, digests, ended, load_json, main
 
 SCENE = os.path.join(SCENES, "fig_4_14_bouncing_ball.scene")
-OPTIONS = ("--quiet", "--layers", "color,depth,objects,calibration", "--size", "320x240")
+OPTIONS = ("--quiet", "--layers", "color,depth,objects,calibration", "--size", "160x120")
 
 
 class Resume(Case):
@@ -57,6 +60,7 @@ class Resume(Case):
         with ended(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)) as process:
             while process.poll() is None and not os.path.isdir(self.path("out", "Camera0", "color")):
                 time.sleep(0.002)
+            self.assertIsNone(process.poll(), "it ended first")
             process.send_signal(signal.SIGHUP)
             self.assertEqual(process.wait(timeout=300), 0)
 
@@ -77,7 +81,7 @@ class Resume(Case):
 
     def test_interrupt_within_a_picture(self):
         """A large picture is not waited for."""
-        options = ("--quiet", "--layers", "color,depth", "--size", "256x36000", "--tile", "256x16", "--frames", "0:0")
+        options = ("--quiet", "--layers", "color,depth", "--size", "256x16000", "--tile", "256x16", "--frames", "0:0")
         folder = self.path("part")
         status, errors = self.interrupt(folder, signal.SIGINT, options, 1)
         self.assertEqual(status, 75, errors)
@@ -191,8 +195,11 @@ class Resume(Case):
 
     def test_a_changed_model_or_texture_is_another_request(self):
         """The contents of the files that a scene names are part of what is resumed."""
+        pictures.write_png(self.path("a.png"), numpy.zeros((1, 2, 3), numpy.uint8))
+        with open(self.path("a.png"), "rb") as file:
+            picture = file.read()
         files = {"a.obj": b"mtllib a.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n# 1",
-                 "a.mtl": b"newmtl m\nKd 1 1 1\nmap_Kd a.ppm\n# 1", "a.ppm": b"P6\n2 1\n255\n\1\2\3\4\5\6"}
+                 "a.mtl": b"newmtl m\nKd 1 1 1\nmap_Kd a.png\n# 1", "a.png": picture + b"1"}
         for name, data in files.items():
             self.write(name, data)
         scene = self.write("s.json", json.dumps({

@@ -62,15 +62,20 @@ def steps_of(name):
     return {"down": rows, "up": -rows, "right": columns, "fisheye": -columns, "table": (x // 8 - 3 * (y // 4)) * 4}[name]
 
 
+def frames_of(instants):
+    """Frames of the dense time line that have them."""
+    return f"{4 * STEPS + instants[0]}:{4 * STEPS + instants[-1]}:{numpy.gcd.reduce(numpy.diff(instants))}"
+
+
 class RollingShutters(Case):
-    def save_table(self, every=1):
-        """Rays of a pinhole, with a time for each block of 8 x 4 pixels; every so many of a row and a column."""
+    def save_table(self, across=1, down=1):
+        """Rays of a pinhole, with a time for each block of 8 x 4 pixels; of every so many columns and rows."""
         y, x = numpy.mgrid[0:HEIGHT, 0:WIDTH]
         rays = numpy.stack([(x + 0.5 - WIDTH / 2) / 20, (y + 0.5 - HEIGHT / 2) / 20, numpy.ones((HEIGHT, WIDTH)),
                             steps_of("table") / STEPS], axis=-1)
-        numpy.save(self.path("timed.npy"), rays[::every, ::every])
+        numpy.save(self.path("timed.npy"), rays[::down, ::across])
         rays[..., 3] = 0
-        numpy.save(self.path("still.npy"), rays[::every, ::every])
+        numpy.save(self.path("still.npy"), rays[::down, ::across])
 
     def render(self, folder, description, layers, frames, *options):
         path = self.write(folder + ".json", json.dumps(description))
@@ -98,9 +103,7 @@ class RollingShutters(Case):
                 self.render("rolling", scene(camera), ",".join(LAYERS), "4", *FORMATS)
                 instants = sorted(set(steps.flat))
                 self.assertGreater(len(instants), 8)
-                first, last = 4 * STEPS + instants[0], 4 * STEPS + instants[-1]
-                self.render("still", self.still(name, STEPS), ",".join(LAYERS), f"{first}:{last}",
-                            *FORMATS)
+                self.render("still", self.still(name, STEPS), ",".join(LAYERS), frames_of(instants), *FORMATS)
                 for layer in LAYERS:
                     rolling = self.values("rolling", layer, 4)
                     for step in instants:
@@ -111,8 +114,7 @@ class RollingShutters(Case):
         steps = steps_of("down")
         options = ("--samples", "3")
         self.render("rolling", scene(CAMERAS["down"]), "color,alpha", "4", *options)
-        first, last = 4 * STEPS + steps.min(), 4 * STEPS + steps.max()
-        self.render("still", self.still("down", STEPS), "color,alpha", f"{first}:{last}", *options)
+        self.render("still", self.still("down", STEPS), "color,alpha", frames_of(sorted(set(steps.flat))), *options)
         for layer in ("color", "alpha"):
             rolling = read_png(self.path("rolling", "eye", layer, "000004.png"))
             for y in range(HEIGHT):
@@ -170,13 +172,13 @@ class RollingShutters(Case):
         self.assertGreaterEqual(len(kinds), 3)
 
     def test_datasets_of_rolling_cameras_are_verified(self):
-        self.save_table(2)
+        self.save_table(4, 2)
         description = scene(CAMERAS["down"])
         plain = description["cameras"][0]
         description["cameras"] = []
         for name, camera in {**CAMERAS, "still": {}, "table rolling": {**CAMERAS["table"], "rollingShutter": {"duration": 0.25, "direction": "up"}}}.items():
             own = {key: value for key, value in plain.items() if key != "rollingShutter"}
-            description["cameras"].append({**own, **camera, "name": name, "width": WIDTH // 2, "height": HEIGHT // 2})
+            description["cameras"].append({**own, **camera, "name": name, "width": WIDTH // 4, "height": HEIGHT // 2})
         layers = (",".join(LAYERS) + ",edges,flow_forward,flow_backward,sceneflow,correspondence,alpha,coverage,ldi,"
                   "boxes,amodal,points,tracks,matting,depth_noisy")
         self.render("all", description, layers, "3:4", "--flow_forward-format", "npy,flo", "--matte", "ball,crate",
@@ -237,7 +239,7 @@ class RollingShutters(Case):
                      status=2, says="rolling shutter")
         # Of layers that were not named, those that need one instant are left out, and said.
         for word, layers in (("usual", []), ("all", ["--layers", "all"])):
-            said = self.dgtk("render", path, "-o", self.path(word), "--frames", "4", "--size", "32x24", *layers).stderr
+            said = self.dgtk("render", path, "-o", self.path(word), "--frames", "4", "--size", "16x8", *layers).stderr
             left = {row["layer"]: row for row in load_json(self.path(word, "manifest.json"))["empty"]}
             self.assertIn("layers without a file: ", said)
             self.assertEqual(left["calibration"], {"layer": "calibration", "pictures": 1, "of": 1,

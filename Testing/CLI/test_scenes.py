@@ -4,7 +4,7 @@ import json
 import os
 import re
 
-from harness import SCENES, Case, main
+from harness import SCENES, Case, load_json, main
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -29,6 +29,39 @@ class Scenes(Case):
         camera = [n for n in os.listdir(self.path("out")) if os.path.isdir(self.path("out", n))]
         self.assertEqual(len(camera), 1)
         self.assertEqual(sorted(os.listdir(self.path("out", camera[0], "color"))), ["000000.png", "000001.png", "000002.png"])
+
+    def test_a_folder_has_scenes_without_objects_and_files_that_are_damaged(self):
+        """What is a scene, however little it has, is rendered; what cannot be is named, and keeps no other from it."""
+        os.mkdir(self.path("models"))
+        self.write("models/quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        camera = {"name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0]}
+        self.write("few.json", json.dumps({"seed": 3, "objects": [{"name": "b", "model": "models/quad.obj", "count": {"integer": [0, 2]}}], "cameras": [camera]}))
+        self.dgtk("sample", self.path("few.json"), "-o", self.path("few"), "--samples", "0:5", "--quiet")
+        scenes = [f"{i:06}" for i in range(6)]
+        self.assertTrue(any("objects" not in load_json(self.path("few", name + ".json")) for name in scenes), "one without objects")
+        self.write("few/flat.json", json.dumps({"background": [0.5, 0.5, 0.5], "cameras": [camera]}))
+        self.write("few/classes.json", json.dumps({"car": 1}))
+        self.write("few/cameras.json", json.dumps({"cameras": [{"name": "c", "frame": 0}]}))
+        self.write("few/lock.json", json.dumps({"version": 3, "packages": []}))
+        options = ("--layers", "color,objects", "--size", "8x6", "--quiet")
+        self.dgtk("render", self.path("few"), "-o", self.path("out"), *options)
+        manifest = load_json(self.path("out", "manifest.json"))
+        self.assertEqual([one["path"].split("/")[0] for one in manifest["datasets"]], scenes + ["flat"])
+        self.assertEqual(manifest["left_out"], ["cameras.json", "classes.json", "lock.json", "samples.json"])
+        for name, contents in (("._flat.json", b"\0\5\26\7"), ("wide.json", '{"version": 1}'.encode("utf-16")), ("cut.json", b'{"objects":'),
+                               ("typo.json", json.dumps({"version": 1, "objects": [], "camera": [camera]}).encode())):
+            with open(self.path("few", name), "wb") as file:
+                file.write(contents)
+        said = self.dgtk("render", self.path("few"), "-o", self.path("more"), *options, status=3).stderr
+        self.assertIn("3 of 10 scenes could not be rendered", said)
+        self.assertIn("cut.json:1: is not valid JSON", said)
+        self.refused("info", self.path("few", "wide.json"), status=3, says=("wide.json: is UTF-16 (expected text in UTF-8)",))
+        for name in scenes + ["flat"]:
+            self.assertTrue(os.path.exists(self.path("more", name, "manifest.json")), name)
+        for name in ("._flat.json", "wide.json", "cut.json", "typo.json"):
+            os.remove(self.path("few", name))
+        self.dgtk("render", self.path("few"), "-o", self.path("more"), *options, "--replace")
+        self.assert_same_files(self.path("out"), self.path("more"))
 
     def test_every_thesis_scene_survives(self):
         for name in sorted(os.listdir(SCENES)):

@@ -6,12 +6,13 @@ import re
 import subprocess
 import time
 
-from harness import DGTK, SCENES, SOURCE, Case, digests, ended, main
+from harness import DGTK, SCENES, SOURCE, digests, ended, main
+from many_runs import ManyCase
 
 SCENE = os.path.join(SCENES, "demo.json")
 
 
-class Usage(Case):
+class Usage(ManyCase):
     def test_help_of_every_command(self):
         overview = self.dgtk("--help").stdout
         for command in ("render", "info", "convert", "compare", "list"):

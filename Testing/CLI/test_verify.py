@@ -15,7 +15,7 @@ from dataset_edits import Edits
 from harness import SCENES, Case, load_json, main
 
 LAYERS = "color,depth,distance,position,normal,uv,objectcoords,objects,parts,triangles,calibration,classes"
-WIDTH, HEIGHT = 80, 60
+WIDTH, HEIGHT = 40, 36  # more than two chunks of 16 rows
 PAIRS = ",correspondence,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward,sceneflow"
 
 
@@ -54,7 +54,7 @@ class Spoiled(Case):
 
     def setUp(self):
         super().setUp()
-        shutil.copytree(self.whole, self.path("set"))
+        shutil.copytree(self.whole, self.path("set"), copy_function=shutil.copyfile)
         # Paths of models are relative to the dataset.
         for name in ("scene.json", "manifest.json", "objects.json"):
             text = contents(self.path("set", name)).decode()
@@ -73,9 +73,13 @@ class Spoiled(Case):
         self.write(os.path.join("set", "manifest.json"), json.dumps(manifest))
 
     def found(self, name, check, *says):
-        """verify fails, and names the file on standard error by the check that sees it."""
-        line = self.refused("verify", self.path("set"), status=1, says=[name, f"check {check}", *says])
-        return line
+        """verify fails, and names the file in one line on standard error by the check that sees it."""
+        done = self.dgtk("verify", self.path("set"), status=1)
+        line, = [line for line in done.stderr.splitlines() if line]
+        self.assertTrue(line.startswith("dgtk: "), line)
+        for text in (name, f"check {check}", *says):
+            self.assertIn(text, line)
+        return done
 
     def change(self, name, edit):
         """Replaces the values of a .npy file of the dataset."""
@@ -109,6 +113,7 @@ class Planted(Spoiled):
             self.assertLessEqual(residual["skipped"] if residual["check"] in ("depth", "objects", "class", "motion") else 0,
                                  residual["count"] * 2e-3, residual)
         self.assertEqual(load_json(self.path("set", "verification.json")), report)
+        self.assertEqual(report["dataset_manifest"], hashlib.sha256(contents(self.path("set", "manifest.json"))).hexdigest())
         # The report does not make the dataset another one, and does not depend on the threads.
         again = self.dgtk("verify", self.path("set"), "--json", "--threads", 1)
         self.assertEqual(again.stdout, done.stdout)
@@ -121,8 +126,8 @@ class Planted(Spoiled):
         cameras["cameras"][0]["K"][0][2] += 0.5
         self.write(os.path.join("set", "cameras.json"), json.dumps(cameras))
         self.accept("cameras.json")
-        self.found("cameras.json", "cameras", "40.5", "expected 40 ")
-        table = self.dgtk("verify", self.path("set"), status=1).stdout
+        found = self.found("cameras.json", "cameras", "20.5", "expected 20 ")
+        table = found.stdout
         row = next(line for line in table.splitlines() if "cv::projectPoints" in line)
         self.assertIn("5.00e-01", row)
 
@@ -141,7 +146,7 @@ class Planted(Spoiled):
             return ids
 
         self.change("right/objects/000000.npy", flip)
-        self.found("right/objects/000000.npy: pixel (40, 30)", "objects")
+        self.found("right/objects/000000.npy: pixel (20, 18)", "objects")
 
     def test_flow_transposed(self):
         name = self.path("set", "left", "flow_forward", "000000.flo")
@@ -154,8 +159,7 @@ class Planted(Spoiled):
 
     def test_correspondence_by_half_a_pixel(self):
         self.change("left/correspondence_right/000000.npy", lambda values: values + [0.0, 0.5])
-        self.found("left/correspondence_right/000000.npy: pixel", "motion", "5.00e-01 pixel")
-        table = self.dgtk("verify", self.path("set"), status=1).stdout
+        table = self.found("left/correspondence_right/000000.npy: pixel", "motion", "5.00e-01 pixel").stdout
         row = next(line for line in table.splitlines() if line.startswith("epipolar"))
         self.assertIn("5.00e-01", row)
         self.assertIn("BREACH", row)
@@ -224,7 +228,7 @@ class Planted(Spoiled):
 class PlantedObjects(Spoiled):
     """What belongs to rays and objects rather than to one pixel."""
     scene = "fig_4_7_stereo.json"
-    options = ("--layers", "color,depth,objects,classes,ldi,boxes,amodal,points", "--points-step", "4")
+    options = ("--layers", "color,depth,objects,classes,ldi,boxes,amodal,points", "--points-step", "2")
 
     def test_as_rendered(self):
         report = json.loads(self.dgtk("verify", self.path("set"), "--json").stdout)
@@ -233,6 +237,9 @@ class PlantedObjects(Spoiled):
                     ("boxes", "masks"),
                     ("boxes", "pose"), ("points", "tracks"), ("points", "visible"), ("points", "ply")):
             self.assertGreater(counts.get(row, 0), 0, row)
+        amodal = next(row for row in report["residuals"] if row["layer"] == "amodal")
+        objects = json.loads(contents(self.path("set", "objects.json")))["objects"]
+        self.assertEqual(amodal["count"] + amodal["skipped"], 2 * WIDTH * HEIGHT * len(objects))
 
     def ldi(self, change):
         """Edits the records of the middle pixel: (count, offset of the first record) of a bytearray."""
@@ -252,21 +259,21 @@ class PlantedObjects(Spoiled):
             del data[at:at + 16]
 
         self.ldi(drop)
-        self.found("left/ldi/000000.ldi: pixel (40, 30)", "ldi")
+        self.found("left/ldi/000000.ldi: pixel (20, 18)", "ldi")
 
     def test_ldi_out_of_order(self):
         def swap(data, _, at):
             data[at:at + 16], data[at + 16:at + 32] = data[at + 16:at + 32], data[at:at + 16]
 
         self.ldi(swap)
-        self.found("left/ldi/000000.ldi: pixel (40, 30)", "ldi")
+        self.found("left/ldi/000000.ldi: pixel (20, 18)", "ldi")
 
     def test_ldi_of_another_color(self):
         def paint(data, _, at):
             data[at] ^= 64
 
         self.ldi(paint)
-        self.found("left/ldi/000000.ldi: pixel (40, 30)", "ldi", "first = color")
+        self.found("left/ldi/000000.ldi: pixel (20, 18)", "ldi", "first = color")
 
     def test_ldi_truncated(self):
         name = self.path("set", "left", "ldi", "000000.ldi")
@@ -322,8 +329,7 @@ class PlantedObjects(Spoiled):
             point["track"] = point["track"][:1]
 
         self.edit("points/000000.json", push)
-        self.found("points/000000.ply", "points", "vertex 100")
-        table = self.dgtk("verify", self.path("set"), status=1).stdout
+        table = self.found("points/000000.ply", "points", "vertex 100").stdout
         self.assertIn("BREACH (1)", next(row for row in table.splitlines() if row.startswith("points       surface")))
 
 

@@ -3,6 +3,8 @@
 import json
 import re
 
+from harness import WHOLE
+
 
 def leaves(value, path=()):
     """(path, value) of all in a JSON document."""
@@ -12,8 +14,8 @@ def leaves(value, path=()):
 
 
 def kind_of(path):
-    """Where alike things stand: places in lists of numbers and in lists of those count, others do not."""
-    return "/".join(key if isinstance(key, str) else str(key) if all(isinstance(one, int) for one in path[i:]) and len(path) - i <= 1 else "*"
+    """Where alike things stand: places in lists of numbers and in lists of those count, others do not, nor do numbers as keys unless WHOLE."""
+    return "/".join((key if WHOLE else re.sub(r"^\d+$", "#", key)) if isinstance(key, str) else str(key) if all(isinstance(one, int) for one in path[i:]) and len(path) - i <= 1 else "*"
                     for i, key in enumerate(path))
 
 

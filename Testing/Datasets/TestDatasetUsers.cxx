@@ -30,12 +30,11 @@ constexpr double wanted = 0.85;
 constexpr double unbiased = 0.1;
 /// Pixels: how well the chessboard must recover fx, fy, cx and cy.
 constexpr double calibrated = 0.05;
-/// The same of lenses, whose coefficients are found beside: a thousandth of fx; of cx and cy what tangential
-/// coefficients stand for as well.
-constexpr double calibratedFocal = 0.532;
-constexpr double calibratedCentre = 1;
+/// The same of lenses, whose coefficients are found beside: a thousandth of fx; of cx and cy less than half a pixel.
+constexpr double calibratedFocal = 0.266;
+constexpr double calibratedCentre = 0.4;
 /// Pixels: mean of what calibrations leave of the corners.
-constexpr double reprojected = 0.05;
+constexpr double reprojected = 0.03;
 constexpr int border = 16; // pixels without a whole window around them
 
 /// All rows of an image file; CV_64F for float64, CV_32F for float32, CV_8U for uint8.
@@ -170,6 +169,27 @@ struct Boards
   std::size_t pictures = 0;
 };
 
+/// Moves corners to where the edges around them meet, each seen as far as no other corner is near.
+void refine(const cv::Mat& picture, std::vector<cv::Point2f>& corners)
+{
+  cv::Mat smooth; // the differences of sharp pixels lean to their centres
+  cv::GaussianBlur(picture, smooth, cv::Size(), 1.5);
+  const std::vector<cv::Point2f> rough = corners;
+  for (cv::Point2f& corner : corners)
+  {
+    double space = picture.cols;
+    for (const cv::Point2f& other : rough)
+    {
+      space = other == corner ? space : std::min(space, cv::norm(other - corner));
+    }
+    const int half = int(0.6 * space);
+    std::vector<cv::Point2f> one{ corner };
+    cv::cornerSubPix(
+      smooth, one, { half, half }, { -1, -1 }, { cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-4 });
+    corner = one[0];
+  }
+}
+
 Boards findBoards(const std::string& folder, const std::string& name, const std::vector<CameraRecord>& cameras)
 {
   const cv::Size inner(9, 6);
@@ -195,8 +215,9 @@ Boards findBoards(const std::string& folder, const std::string& name, const std:
     boards.size = picture.size();
     ++boards.pictures;
     std::vector<cv::Point2f> found;
-    if (cv::findChessboardCornersSB(picture, inner, found, cv::CALIB_CB_ACCURACY))
+    if (cv::findChessboardCorners(picture, inner, found, cv::CALIB_CB_FAST_CHECK))
     {
+      refine(picture, found);
       for (cv::Point2f& corner : found)
       {
         corner += cv::Point2f(0.5f, 0.5f); // OpenCV counts from the centre of the first pixel
@@ -276,6 +297,7 @@ int main(int argc, char** argv)
 {
   try
   {
+    cv::setNumThreads(1); // those that wait would spin
     const std::string kind = argc == 3 ? argv[1] : "";
     const std::map<std::string, int (*)(const std::string&)> kinds{ { "stereo", &stereo }, { "flow", &flow },
       { "chessboard", &chessboard }, { "lenses", &lenses } };

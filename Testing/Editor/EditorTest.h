@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <QSize>
+#include <QStringList>
 
 #include <functional>
 #include <memory>
@@ -38,6 +39,8 @@ private slots:
 protected:
   /// Of the window of each case, where it may be smaller than the editor opens it: half of the time is for pixels.
   virtual QSize windowSize() const { return {}; }
+  /// Cases that open windows themselves, or none.
+  virtual QStringList withoutWindow() const { return {}; }
   QAction* action(const char* name) const;
   QLineEdit* field(const char* name) const;
   void type(const char* name, const QString& text) const;
@@ -57,7 +60,9 @@ protected:
   static void check(QCheckBox* box, bool on);
   /// Renders by the dialog, and the scene file by the command line; both must hold the same bytes. By mouse and keys.
   void renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const;
-  /// The demo scene in a file that a test may overwrite.
+  /// Some objects of the demo scene, its lights and cameras, in a file that a test may overwrite: it opens sooner.
+  QString partOfDemo(const char* name, const QStringList& objects) const;
+  /// Of objects that are usual.
   QString copyOfDemo() const;
 
   dgtk::test::TemporaryFolder Folder;

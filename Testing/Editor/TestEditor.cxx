@@ -286,7 +286,7 @@ void TestEditor::theViewsLookAsTheyWereLeft()
     this->Window = std::make_unique<dgtk::MainWindow>();
     this->Window->show();
     activate(*this->Window);
-    QVERIFY(this->Window->openFile(demo()));
+    QVERIFY(this->Window->openFile(this->copyOfDemo()));
   };
   const QList<int> usual = sizes();
   QList<QSplitter*> splitters = this->Window->findChildren<QSplitter*>();
@@ -302,7 +302,7 @@ void TestEditor::theViewsLookAsTheyWereLeft()
   {
     this->action(name)->trigger();
   }
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const QImage front = picture("view.0");
   again();
   QCOMPARE(sizes(), moved);

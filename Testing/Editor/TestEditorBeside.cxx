@@ -76,7 +76,7 @@ TestEditorBeside::Answers TestEditorBeside::stir(int milliseconds, const std::fu
 /// While pictures are made, selecting, typing, dragging and scrubbing go on.
 void TestEditorBeside::theWindowAnswersWhileItRenders()
 {
-  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  QVERIFY(this->Window->openFile(demo()));
   const Answers alone = this->stir(0, [] { return true; });
   this->action("render")->trigger();
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");

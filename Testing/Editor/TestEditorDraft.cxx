@@ -155,7 +155,7 @@ void TestEditorTruth::texturesAreSmoothFromAfar()
 
 void TestEditorTruth::whatIsNotTheRenderersSaysDraft()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const auto draft = [this](int view)
   {
     auto* widget = this->Window->findChild<QWidget*>("view." + QString::number(view));

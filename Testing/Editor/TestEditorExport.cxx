@@ -66,7 +66,7 @@ void TestEditorExport::refusalsAreInTheWindowsWords()
 
 void TestEditorExport::aRenderForAnExportHasItsLayers()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   this->action("render")->trigger();
   const auto* shown = this->Window->findChild<dgtk::RenderDialog*>("renderDialog");
   QVERIFY(!shown->arguments("scene").contains("--for"));

@@ -12,6 +12,9 @@ class TestEditorExport : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  QSize windowSize() const override { return { 860, 620 }; }
+
 private slots:
   void anExportHasTheBytesOfTheCommandLine();
   void refusalsAreInTheWindowsWords();

@@ -18,6 +18,7 @@ class TestEditorFiles : public EditorTest
 
 protected:
   QSize windowSize() const override { return { 1000, 720 }; }
+  QStringList withoutWindow() const override { return { "filesOfTheCommandLineOpen" }; }
 
 private slots:
   void samplesAreImportedOrRefused();

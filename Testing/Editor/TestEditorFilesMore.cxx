@@ -330,7 +330,7 @@ QDialog* TestEditorFiles::largeRun(const char* folder, int size) const
 /// Cancel, and Cancel again while a picture is drawn that takes minutes.
 void TestEditorFiles::aLargeRunEndsAtOnce()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const QDialog* const dialog = this->largeRun("hours", 8 * largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   auto* cancel = dialog->findChild<QPushButton*>("cancel");
@@ -348,7 +348,7 @@ void TestEditorFiles::aLargeRunEndsAtOnce()
 /// Cancel before dgtk knows of signals, in an editor that ignores them as those that a script starts in the background.
 void TestEditorFiles::aRunEndsThatHasJustBegun()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const QDialog* const dialog = this->largeRun("hours", 8 * largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   const auto before = std::signal(SIGINT, SIG_IGN);
@@ -362,7 +362,7 @@ void TestEditorFiles::aRunEndsThatHasJustBegun()
 
 void TestEditorFiles::theProgressOfARunMoves()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const QDialog* const dialog = this->largeRun("progress", 4 * largeWidth);
   auto* bar = dialog->findChild<QProgressBar*>("progress");
   auto* start = dialog->findChild<QPushButton*>("start");

@@ -127,10 +127,11 @@ void TestEditorForest::openForest(const std::string& model, int side, int camera
   QVERIFY(spent < patience() * forestLimit);
 }
 
-double TestEditorForest::longest(const char* what, const std::function<void(int)>& act) const
+bool TestEditorForest::isQuick(const char* what, const std::function<void(int)>& act) const
 {
+  const double limit = patience() * eventLimit;
   double least = 1e9;
-  for (int i = 0; i < tries; ++i)
+  for (int i = 0; i < tries && least >= limit; ++i)
   {
     timed().restart();
     act(i);
@@ -144,7 +145,7 @@ double TestEditorForest::longest(const char* what, const std::function<void(int)
       qInfo("%s: %.0f ms, %s", what, least, qPrintable(timed().what()));
     }
   }
-  return least;
+  return least < limit;
 }
 
 void TestEditorForest::aForestOpensAndAnswersAtOnce()
@@ -152,14 +153,15 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
   this->openForest(tree(), forestSide, forestCameras);
   QCOMPARE(this->Window->document().models().size(), std::size_t(1));
   const char* const names[tries] = { "tree40", "tree41", "tree42" };
-  QVERIFY(this->longest("select", [&](int i) { this->select(names[i % tries]); }) < patience() * eventLimit);
-  QVERIFY(
-    this->longest("type", [&](int i) { this->type("position.1", QString::number(i + 1)); }) < patience() * eventLimit);
-  QCOMPARE(this->Window->document().scene().objects[42].position.value.y(), double(tries));
+  QVERIFY(this->isQuick("select", [&](int i) { this->select(names[i]); }));
+  this->select("tree42");
+  int typed = 0;
+  QVERIFY(this->isQuick("type", [&](int) { this->type("position.1", QString::number(++typed)); }));
+  QCOMPARE(this->Window->document().scene().objects[42].position.value.y(), double(typed));
   auto* cells = this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport();
   const auto scrub = [&](int i)
   { QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(cells->width() - 12 * (i + 1), 5)); };
-  QVERIFY(this->longest("scrub", scrub) < patience() * eventLimit);
+  QVERIFY(this->isQuick("scrub", scrub));
   this->action("frameSelected")->trigger();
   untilQuiet();
   const QPoint middle = this->view(front)->rect().center();
@@ -173,7 +175,7 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
     QTest::mouseRelease(this->view(front), Qt::LeftButton, {}, middle + QPoint(40, i));
   };
   const double before = this->Window->document().scene().objects[42].position.value.x();
-  QVERIFY(this->longest("drag", drag) < patience() * eventLimit);
+  QVERIFY(this->isQuick("drag", drag));
   QVERIFY(this->Window->document().scene().objects[42].position.value.x() > before);
 }
 
@@ -198,14 +200,14 @@ void TestEditorForest::aForestIsCopiedAtOnce()
     prepare(this->action("undo"), this->action("selectAll"));
     QTest::keyClick(this->Window.get(), Qt::Key_D, Qt::ControlModifier);
   };
-  QVERIFY(this->longest("duplicate", duplicate) < patience() * eventLimit);
+  QVERIFY(this->isQuick("duplicate", duplicate));
   QCOMPARE(document.scene().objects.size(), 2 * trees);
   const auto undo = [&](int /*unused*/)
   {
     prepare(this->action("redo"), this->action("selectAll"));
     QTest::keyClick(this->Window.get(), Qt::Key_Z, Qt::ControlModifier);
   };
-  QVERIFY(this->longest("undo", undo) < patience() * eventLimit);
+  QVERIFY(this->isQuick("undo", undo));
   QCOMPARE(document.scene().objects.size(), trees);
 }
 

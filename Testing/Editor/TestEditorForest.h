@@ -28,8 +28,8 @@ private:
   void openForest(const std::string& model, int side, int cameras) const;
   QWidget* view(int kind) const;
   void moveTo(int kind, const QPoint& at) const;
-  /// The longest event while something is done and shown; the least of a few times, milliseconds.
-  double longest(const char* what, const std::function<void(int)>& act) const;
+  /// Whether no event takes long while something is done and shown: once, of a few times.
+  bool isQuick(const char* what, const std::function<void(int)>& act) const;
 };
 
 #endif

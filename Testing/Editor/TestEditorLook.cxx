@@ -155,7 +155,7 @@ QImage TestEditorLook::picture(const char* view) const
 
 void TestEditorLook::viewsHaveAllPixelsOfTheDisplay()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   auto* view = this->Window->findChild<QOpenGLWidget*>("view.3");
   const QImage shown = this->picture("view.3");
   QCOMPARE(shown.size(), (QSizeF(view->size()) * view->devicePixelRatioF()).toSize());
@@ -177,7 +177,7 @@ void TestEditorLook::aViewIsDrawnOnceForASize()
   vtkNew<vtkCallbackCommand> counter;
   counter->SetClientData(&drawn);
   counter->SetCallback([](vtkObject*, unsigned long, void* number, void*) { ++*static_cast<int*>(number); });
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   for (int place = 0; place < 4; ++place)
   {
     auto* view = this->Window->findChild<QVTKOpenGLNativeWidget*>("view." + QString::number(place));
@@ -366,6 +366,10 @@ void TestEditorLook::smallModelsKeepTheirTexturesSeams()
 
 void TestEditorLook::germanIsShownEverywhere()
 {
+  if (qApp->devicePixelRatio() > 1)
+  {
+    QSKIP("words are the same on all displays");
+  }
   QVERIFY(dgtk::setEditorLanguage("de"));
   this->Window = std::make_unique<dgtk::MainWindow>();
   this->Window->show();
@@ -404,6 +408,10 @@ void TestEditorLook::germanIsShownEverywhere()
 
 void TestEditorLook::languagesAreNamed()
 {
+  if (qApp->devicePixelRatio() > 1)
+  {
+    QSKIP("words are the same on all displays");
+  }
   QVERIFY(dgtk::editorLanguages().contains("de"));
   QVERIFY(!dgtk::setEditorLanguage("tlh"));
   QProcess editor;

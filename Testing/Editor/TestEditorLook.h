@@ -9,6 +9,9 @@ class TestEditorLook : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  QStringList withoutWindow() const override { return { "germanIsShownEverywhere", "languagesAreNamed" }; }
+
 private slots:
   void viewsHaveAllPixelsOfTheDisplay();
   void aViewIsDrawnOnceForASize();

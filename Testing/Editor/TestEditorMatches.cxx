@@ -177,7 +177,7 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
 
 void TestEditorTruth::manyPairsOpenAtOnce()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   QWidget* const dialog = this->openMatches();
   dgtk::SparseSet set{ { "left", 0, 640, 480 }, { "right", 0, 640, 480 }, {} };
   constexpr std::size_t many = 2000;

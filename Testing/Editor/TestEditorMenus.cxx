@@ -17,7 +17,6 @@
 #include <QStatusBar>
 #include <QTest>
 
-#include <algorithm>
 #include <string>
 
 namespace
@@ -74,19 +73,7 @@ QList<QPointer<QAction>> TestEditorMenus::menuItems() const
   return items;
 }
 
-QString TestEditorMenus::fewObjects() const
-{
-  dgtk::SceneDocument document;
-  document.open(demo().toStdString());
-  document.edit("Few",
-    [](dgtk::SceneDescription& scene)
-    {
-      const auto isOther = [](const dgtk::ObjectDescription& one) { return one.name != "tree" && one.name != "vase"; };
-      scene.objects.erase(std::remove_if(scene.objects.begin(), scene.objects.end(), isOther), scene.objects.end());
-    });
-  document.saveAs(this->Folder.path("few.json"));
-  return this->path("few.json");
-}
+QString TestEditorMenus::fewObjects() const { return this->partOfDemo("few.json", { "tree", "vase" }); }
 
 /// In both languages, also of the window of datasets.
 void TestEditorMenus::lettersOfMenusDiffer()

@@ -11,16 +11,17 @@
 class QFileDialog;
 class QWidget;
 
-/// 1,500 random events, or DGTK_MONKEY_EVENTS; DGTK_MONKEY_SEED chooses others. The same seed gives the same ones.
+/// 600 random events (1,500 with DGTK_TEST_WHOLE), or DGTK_MONKEY_EVENTS; DGTK_MONKEY_SEED chooses others. The same
+/// seed gives the same ones.
 class TestEditorMonkey : public EditorTest
 {
   Q_OBJECT
 
-private slots:
-  void randomEventsDoNoHarm();
-
 protected:
   QSize windowSize() const override { return { 900, 640 }; }
+
+private slots:
+  void randomEventsDoNoHarm();
 
 private:
   int below(int end) { return int(this->Random() % unsigned(end > 1 ? end : 1)); }

@@ -48,6 +48,7 @@ int beEditor(int argc, char** argv)
   QApplication application(argc, argv);
   dgtk::MainWindow::setupApplication();
   dgtk::MainWindow window;
+  window.resize(window.minimumSizeHint());
   window.show();
   window.openFile(scene);
   window.findChild<QAction*>("render")->trigger();
@@ -176,6 +177,7 @@ void TestEditorRuns::startEditor(QProcess& editor) const
 void TestEditorRuns::openWindow()
 {
   this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->resize(this->windowSize());
   this->Window->show();
   activate(*this->Window);
   this->Window->findRuns();

@@ -15,6 +15,10 @@ class TestEditorRuns : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  QSize windowSize() const override { return { 1000, 720 }; }
+  QStringList withoutWindow() const override { return { "aRunOutlivesItsEditor" }; }
+
 private slots:
   void quittingAsks();
   void aRunOutlivesItsEditor_data();

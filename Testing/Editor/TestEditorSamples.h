@@ -14,6 +14,9 @@ class TestEditorSamples : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  QSize windowSize() const override { return { 860, 620 }; }
+
 private slots:
   void samplesAreThoseOfTheCommandLine();
   void theKeyboardChoosesSamples();

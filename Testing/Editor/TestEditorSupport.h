@@ -175,7 +175,7 @@ inline QMap<QString, QByteArray> contents(const QString& folder)
 /// Processes of `dgtk render` that windows of this program's data folder started, and that live.
 QList<pid_t> livingRuns();
 
-/// Knows how long the window was busy with one event.
+/// Knows how long the window was busy with one event, since restart().
 class TimedApplication : public QApplication
 {
 public:
@@ -183,7 +183,7 @@ public:
 
   bool notify(QObject* receiver, QEvent* event) override
   {
-    if (this->Depth > 0)
+    if (this->Depth > 0 || !this->Watched)
     {
       return QApplication::notify(receiver, event);
     }
@@ -191,7 +191,8 @@ public:
     QElapsedTimer clock;
     clock.start();
     const std::clock_t began = std::clock();
-    const QString name = receiver->objectName() + " (" + receiver->metaObject()->className() + ")";
+    const QString name = receiver->objectName(); // it may be gone afterwards
+    const char* const className = receiver->metaObject()->className();
     const QEvent::Type type = event->type();
     const bool done = QApplication::notify(receiver, event);
     // On a busy machine the time that others took does not count; with threads of their own it is not less than this.
@@ -199,18 +200,23 @@ public:
     if (spent > this->Longest)
     {
       this->Longest = spent;
-      this->What = QString("%1, event %2").arg(name).arg(type);
+      this->What = QString("%1 (%2), event %3").arg(name, className).arg(type);
     }
     --this->Depth;
     return done;
   }
 
-  void restart() { this->Longest = 0; }
+  void restart()
+  {
+    this->Watched = true;
+    this->Longest = 0;
+  }
   double longest() const { return this->Longest; } ///< milliseconds
   QString what() const { return this->What; }
 
 private:
   int Depth = 0;
+  bool Watched = false; ///< from the first restart() on
   double Longest = 0;
   QString What;
 };

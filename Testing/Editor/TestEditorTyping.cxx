@@ -90,7 +90,7 @@ void TestEditorTyping::whatIsBeingTypedIsSaved()
   {
     dgtk::SceneDocument again;
     again.open(document.path());
-    return again.scene().objects[3];
+    return again.scene().objects[2];
   };
   this->typeOnly("position.0", "12.5");
   QTest::keyClick(this->field("position.0"), Qt::Key_S, Qt::ControlModifier);
@@ -224,7 +224,7 @@ void TestEditorTyping::dialogsKeepWhatIsRefused()
 
 void TestEditorTyping::hugeSizesAreRefused()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const dgtk::SceneDocument& document = this->Window->document();
   const std::string first = document.json();
   this->select(document.scene().cameras.front().name.c_str());

@@ -120,7 +120,7 @@ void TestEditorWhole::camerasHaveSizesOfTheirOwn()
 
 void TestEditorWhole::cancelledRunsResume()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   this->select("house");
   this->type("position.1", "0.5"); // a scene with changes: a copy of it is rendered
   this->action("render")->trigger();
@@ -156,7 +156,7 @@ void TestEditorWhole::cancelledRunsResume()
 
 void TestEditorWhole::closingEndsTheProgram()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   this->Window->openDataset(smallDataset(this->path("small")));
   QCOMPARE(viewers().size(), 1);
   this->action("correspondence")->trigger();
@@ -221,7 +221,7 @@ void TestEditorWhole::parallelViewsCutNothing()
 
 void TestEditorWhole::viewsMoveByKeys()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   untilQuiet();
   QVERIFY2(this->Window->findChild<QWidget*>("view.3")->hasFocus(), "the perspective begins");
   for (const char* name : { "view.0", "view.3" })
@@ -310,7 +310,7 @@ void TestEditorWhole::aPreviewHasTheCamerasPose()
 
 void TestEditorWhole::stylesLookDifferent()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   auto* view = this->Window->findChild<QOpenGLWidget*>("view.3");
   const auto seen = [&](const char* action)
   {

@@ -10,12 +10,12 @@ import math
 import os
 import re
 import shutil
-import subprocess
 import tempfile
 
 import numpy as np
 
-from harness import DGTK, Case, load_json, main  # noqa: F401: for the tests
+from harness import load_json, main  # noqa: F401: for the tests
+from many_runs import ManyCase
 from pictures import read_png  # noqa: F401
 
 LAYERS = "color,depth,objects,classes,boxes,amodal"
@@ -155,12 +155,21 @@ def street(folder, frames=2, **size):
         _camera("cam R", {"keys": [[0, [0.1, 0.2, 4.5]], [last, [0.1, 0.2, 4.3]]]}, {"keys": [[0, [0.1, 0.2, 0]], [last, [0.1, 0.2, -0.2]]]}, **size)]})
 
 
+def in_units(path, metres=None):
+    """A scene's file again, in units of so many metres; None: nobody says how long they are. Its path."""
+    scene = load_json(path)
+    del scene["units"]
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(scene if metres is None else {**scene, "metresPerUnit": metres}, file, ensure_ascii=False)
+    return path
+
+
 def _without_view(camera):
     """K says the view: neither is given twice."""
     return {key: value for key, value in camera.items() if key != "fovY" or "K" not in camera}
 
 
-class ExportCase(Case):
+class ExportCase(ManyCase):
     """Cases that render a scene once for all tests of a class, export and have the referee read it back."""
 
     @classmethod
@@ -169,7 +178,7 @@ class ExportCase(Case):
         folder = tempfile.mkdtemp(prefix="dgtk-exports-")
         cls.addClassCleanup(shutil.rmtree, folder, ignore_errors=True)
         dataset = os.path.join(folder, "dataset")
-        done = subprocess.run([DGTK, "render", make(folder), "-o", dataset, "--quiet", *options], capture_output=True, text=True)
+        done = cls.ran("render", make(folder), "-o", dataset, "--quiet", *options)
         if done.returncode:
             raise RuntimeError(done.stderr)
         return dataset

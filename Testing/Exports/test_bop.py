@@ -160,7 +160,7 @@ class Bop(datasets.ExportCase):
         self.assertRegex(said, "layer (mask|coco)")
 
     def test_parts_units_and_an_empty_frame(self):
-        dataset = self.render(datasets.walk(self.path("scene")), LAYERS, "--models")
+        dataset = self.render(datasets.in_units(datasets.walk(self.path("scene"))), LAYERS, "--models")
         folder, record = self.export(dataset, "bop", "--split", "train_pbr=0:1,test=2:3", "--unit-metres", 0.5, "--depth-scale", 0.25, "--image-format", "jpg")
         self.assertEqual(sorted(os.listdir(folder))[-2:], ["test_targets_bop19.json", "train_pbr"])
         seen, _ = self.check(dataset, folder, record, metres=0.5, step=0.25)

@@ -17,12 +17,6 @@ from harness import DGTK, digests
 KILLS = 20
 
 
-def exporters():
-    """Layers that each format needs."""
-    listed = subprocess.run([DGTK, "list", "exporters", "--json"], check=True, capture_output=True, text=True).stdout
-    return {row["format"]: row["layers"].split(",") for row in json.loads(listed)["exporters"]}
-
-
 def flip_bit(path, seed):
     with open(path, "rb") as file:
         data = bytearray(file.read())
@@ -47,7 +41,7 @@ class Frame(datasets.ExportCase):
         return folder, ""
 
     def dgtk_any(self, *arguments):
-        done = subprocess.run([DGTK, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+        done = self.ran(*arguments)
         self.assertIn(done.returncode, (0, 2), done.stderr)
         self.assertLessEqual(len(done.stderr.splitlines()), 1 if done.returncode else 99, done.stderr)
         return done
@@ -57,7 +51,8 @@ class Frame(datasets.ExportCase):
 
         A format is tried with the first scene rendered for it alone, and with the others rendered for all formats that they are for.
         """
-        known = exporters()
+        listed = json.loads(self.dgtk("list", "exporters", "--json").stdout)["exporters"]
+        known = {row["format"]: row["layers"].split(",") for row in listed}  # that each needs
         scenes = [datasets.stereo(self.path("stereo")), datasets.walk(self.path("walk"), empty=False), datasets.street(self.path("street"))]
         never = []
         for form in known:
@@ -114,7 +109,7 @@ class Frame(datasets.ExportCase):
             whole = file.read()
         for seed in range(12):
             flip_bit(path, seed)
-            done = subprocess.run([DGTK, "verify", dataset, "--export", folder], capture_output=True, text=True)
+            done = self.ran("verify", dataset, "--export", folder)
             self.assertIn(done.returncode, (1, 2, 3), seed)
             self.assertEqual(done.returncode == 1 and "export.json" not in done.stderr, False, done.stderr)
             with open(path, "wb") as file:
@@ -157,7 +152,7 @@ class Frame(datasets.ExportCase):
         dataset = self.render(scene)
         whole, part = self.path("whole"), self.path("part")
         command = [DGTK, "export", dataset, "--format", "coco", "--image-format", "jpg", "--quiet"]
-        subprocess.run([*command, "-o", whole], check=True)
+        self.dgtk(*command[1:], "-o", whole)
         files, killed = len(digests(whole)), 0
         for i in range(KILLS):
             shutil.rmtree(part, ignore_errors=True)
@@ -170,7 +165,7 @@ class Frame(datasets.ExportCase):
             killed += unfinished
             if unfinished and i == KILLS // 2:
                 self.damaged_notes(command, part)
-            subprocess.run([*command, "-o", part, "--resume"], check=True)
+            self.dgtk(*command[1:], "-o", part, "--resume")
             self.assert_same_files(whole, part)
         self.assertGreater(killed, KILLS // 2)
 
@@ -178,18 +173,18 @@ class Frame(datasets.ExportCase):
         dataset = self.render(datasets.walk(self.path("scene"), frames=30, empty=False))
         whole, part = self.path("whole"), self.path("part")
         command = [DGTK, "export", dataset, "--format", "coco", "--quiet"]
-        subprocess.run([*command, "-o", whole], check=True)
+        self.dgtk(*command[1:], "-o", whole)
         for i in range(KILLS // 2):
             process = subprocess.Popen([*command, "-o", part, "--shard", f"{i % 2}/3"])
             time.sleep(0.02 + 0.02 * i)
             process.kill()
             process.wait()
         for share in ("1/3", "0/3", "1/3"):
-            subprocess.run([*command, "-o", part, "--shard", share], check=True)
+            self.dgtk(*command[1:], "-o", part, "--shard", share)
         self.assertEqual(set(self.rates(*command[2:-1], "-o", part, "--shard", "1/3")), {0}, "it was all there")
         self.refused("merge", part, status=1, says=("10 of 30 blocks are missing", "shares 2 of 3; --array=0-2)"))
         self.assertFalse(os.path.exists(os.path.join(part, "export.json")))
-        subprocess.run([*command, "-o", part, "--shard", "2/3"], check=True)
+        self.dgtk(*command[1:], "-o", part, "--shard", "2/3")
         blocks = os.path.join(part, ".dgtk-parts")
         shutil.rmtree(os.path.join(blocks, "000004"))
         [picture] = [os.path.join(base, name) for base, _, names in os.walk(os.path.join(blocks, "000006")) for name in names if name.endswith(".png")]
@@ -203,7 +198,7 @@ class Frame(datasets.ExportCase):
         for option in ("--resume", "--replace"):
             self.refused(*command[1:], "-o", part, option, status=2, says=".dgtk-parts: parts of a run wait to be merged")
         for share in ("0/3", "1/3"):
-            subprocess.run([*command, "-o", part, "--shard", share], check=True)
+            self.dgtk(*command[1:], "-o", part, "--shard", share)
         self.dgtk("merge", part)
         self.assert_same_files(whole, part)
         self.dgtk("export", dataset, "--format", "coco", "-o", part, "--quiet", "--shard", "0/2")  # whole already

@@ -117,7 +117,7 @@ class Gltf(datasets.ExportCase):
     METRES = 0.5
 
     def exported(self, scene, *options):
-        dataset = self.render(scene, "color,depth,position,objects", "--models")
+        dataset = self.render(datasets.in_units(scene), "color,depth,position,objects", "--models")
         folder, record = self.export(dataset, "gltf", "--unit-metres", self.METRES, *options)
         return dataset, folder, Asset(folder), record
 

@@ -73,7 +73,7 @@ class BlenderProc(datasets.ExportCase):
         return maps
 
     def test_pairs(self):
-        dataset = self.render(datasets.stereo(self.path("scene")), LAYERS)
+        dataset = self.render(datasets.in_units(datasets.stereo(self.path("scene"))), LAYERS)
         folder, _ = self.export(dataset, "hdf5", "--unit-metres", self.METRES)
         self.assertEqual(sorted(os.listdir(folder)), ["0.hdf5", "1.hdf5", "2.hdf5", "export.json"])
         for frame in range(3):
@@ -177,7 +177,7 @@ class Spring(datasets.ExportCase):
         return os.path.join(self.sequence, f"{kind}_{side}", f"{kind}_{side}_{frame + 1:04d}.{end}")
 
     def test_all_files(self):
-        dataset = self.render(datasets.stereo(self.path("scene")), self.LAYERS, "--size", "192x144")
+        dataset = self.render(datasets.in_units(datasets.stereo(self.path("scene"))), self.LAYERS, "--size", "192x144")
         folder, _ = self.export(dataset, "spring", "--unit-metres", 0.5)
         self.sequence = os.path.join(folder, "train", "0001")
         lines = [np.loadtxt(os.path.join(self.sequence, "cam_data", name)) for name in ("intrinsics.txt", "extrinsics.txt")]

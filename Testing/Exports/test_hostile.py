@@ -90,6 +90,7 @@ def ply(*lines):
 class Hostile(datasets.ExportCase):
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.dataset = cls.rendered_once(lambda folder: datasets.street(folder, width=24, height=18), "--for", FORMATS)
 
     def ends(self, form, name, edit, says, of_record=None):

@@ -83,7 +83,7 @@ class Kitti(datasets.ExportCase):
 
     def test_a_point_lies_where_the_calibration_says(self):
         """Depth from disparity and P_rect, and the point's pixel in both pictures: the half pixel is in cx and cy."""
-        dataset = self.render(datasets.stereo(self.path("scene")), SCENE_FLOW + ",depth")
+        dataset = self.render(datasets.in_units(datasets.stereo(self.path("scene")), 0.01), SCENE_FLOW + ",depth")
         folder, record = self.export(dataset, "kitti2015", "--unit-metres", 0.01)
         self.assertIn(["metres_per_unit", "0.01"], [list(pair) for pair in pairs(record["conventions"])])
         all_numbers = calibration(os.path.join(folder, "training", "calib_cam_to_cam", "000000.txt"))
@@ -125,7 +125,7 @@ class Kitti(datasets.ExportCase):
 
     def test_depth(self):
         """256 codes a metre; what is too far for 16 bits is none, and counted."""
-        dataset = self.render(datasets.walk(self.path("scene"), empty=False), "color,depth")
+        dataset = self.render(datasets.in_units(datasets.walk(self.path("scene"), empty=False)), "color,depth")
         depths = np.stack([layer_of(dataset, "depth", "Kamera 1", frame) for frame in range(4)])
         last = float(65535 / 256 / depths[np.isfinite(depths)].max())  # the farthest has the last code
         for metres, beyond in ((1, False), (40, True), (last, False)):
@@ -174,7 +174,7 @@ class Odometry(datasets.ExportCase):
     def test_relative_poses(self):
         """Every pose leads points of a frame to the first one; the error against the true trajectory is 0."""
         for scene, names in ((datasets.stereo(self.path("stereo")), ("left eye", "right.eye")), (datasets.walk(self.path("walk")), ("Kamera 1", None))):
-            dataset = self.render(scene, "color")
+            dataset = self.render(datasets.in_units(scene), "color")
             folder, _ = self.export(dataset, "kitti-odometry", "--unit-metres", 2)
             cameras = datasets.cameras_of(dataset)
             poses = self.poses(os.path.join(folder, "poses", "00.txt"))
@@ -200,7 +200,7 @@ class Odometry(datasets.ExportCase):
         scene["cameras"] = [{**scene["cameras"][0], "name": name, "eye": [x, 0.2, 4.5], "lookAt": [x, 0.2, 0]} for name, x in eyes.items()]
         with open(path, "w", encoding="utf-8") as file:
             json.dump(scene, file)
-        folder, _ = self.export(self.render(path, "color"), "kitti-odometry", "--unit-metres", 2)
+        folder, _ = self.export(self.render(path, "color"), "kitti-odometry")
         sequences = os.path.join(folder, "sequences")
         self.assertEqual({name: sorted(os.listdir(os.path.join(sequences, name))) for name in sorted(os.listdir(sequences))},
                          {"00": ["calib.txt", "image_2", "image_3", "times.txt"], "01": ["calib.txt", "image_2", "times.txt"]})

@@ -35,6 +35,7 @@ def scene_in(folder):
 class Limits(datasets.ExportCase):
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.dataset = cls.rendered_once(scene_in, "--for", FORMATS, "--color-bits", "16")
 
     def changed(self, name, edit):

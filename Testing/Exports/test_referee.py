@@ -10,13 +10,11 @@ import math
 import os
 import shutil
 import struct
-import subprocess
 
 import numpy as np
 
 import datasets
 from datasets import load_json, main, sealed
-from harness import DGTK
 from planted_exports import COLMAP, NO_NUMBERS, PANOPTIC, PLANTS, F, packed, word
 
 # What each format needs of every picture, in the order in which it is missed.
@@ -74,7 +72,7 @@ class Referee(datasets.ExportCase):
         """(rows of a sound export, rows where errors were planted, (of these, those of numbers, rows of a tenth of their tolerances, of ten
         times))."""
         folder = self.path(form)
-        subprocess.run([DGTK, "export", self.dataset, "--format", form, "-o", folder, "--quiet"], check=True)
+        self.dgtk("export", self.dataset, "--format", form, "-o", folder, "--quiet")
         sound = self.rows(folder)
         copy = self.path(form + "-copy")
         shutil.copytree(folder, copy)
@@ -96,7 +94,7 @@ class Referee(datasets.ExportCase):
         return sound, planted, (one, small, large)
 
     def rows(self, folder):
-        done = subprocess.run([DGTK, "verify", self.dataset, "--export", folder, "--json"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+        done = self.ran("verify", self.dataset, "--export", folder, "--json")
         return {row["layer"]: dict(row, largest=float(row["largest"])) for row in json.loads(done.stdout)["residuals"]}
 
     def planted(self, folder, plants, times=1, shares=None):
@@ -127,7 +125,7 @@ class Referee(datasets.ExportCase):
                 os.remove(os.path.join(copy, "manifest.json"))
                 with open(os.path.join(copy, "manifest.json"), "w", encoding="utf-8") as file:
                     json.dump({**manifest, "files": files}, file)
-                done = subprocess.run([DGTK, "export", copy, "--format", form, "-o", target, "--quiet"], capture_output=True, text=True)
+                done = self.ran("export", copy, "--format", form, "-o", target, "--quiet")
                 with self.subTest(form=form, known=known):
                     if known == len(layers):
                         self.assertEqual(done.returncode, 0, done.stderr)
@@ -170,7 +168,7 @@ class Referee(datasets.ExportCase):
             return packed("<I", header + 8, 8)(data)
 
         folder = self.path("hdf5")
-        subprocess.run([DGTK, "export", self.dataset, "--format", "hdf5", "-o", folder, "--quiet"], check=True)
+        self.dgtk("export", self.dataset, "--format", "hdf5", "-o", folder, "--quiet")
         self.plant(os.path.join(folder, "0.hdf5"), longer_header)
         self.accept(folder)
         self.refused("verify", self.dataset, "--export", folder, status=1, says=("0.hdf5", "not as long as it says"))
@@ -182,7 +180,7 @@ class Referee(datasets.ExportCase):
         for form, file, edit, breaches in strangers:
             with self.subTest(form):
                 folder = self.path(form + "-stranger")
-                subprocess.run([DGTK, "export", self.dataset, "--format", form, "-o", folder, "--quiet"], check=True)
+                self.dgtk("export", self.dataset, "--format", form, "-o", folder, "--quiet")
                 self.plant(os.path.join(folder, file), edit)
                 self.accept(folder)
                 self.assertEqual({layer for layer, row in self.rows(folder).items() if row["breach"]}, breaches)

@@ -230,8 +230,8 @@ class Ros(datasets.ExportCase):
 
     def setUp(self):
         super().setUp()
-        self.dataset = self.render(datasets.stereo(self.path("scene")), "color,depth,position")
-        exports = {form: self.export(self.dataset, form, "--unit-metres", self.METRES) for form in ("rosbag", "mcap")}
+        self.dataset = self.render(datasets.in_units(datasets.stereo(self.path("scene")), self.METRES), "color,depth,position")
+        exports = {form: self.export(self.dataset, form) for form in ("rosbag", "mcap")}
         self.folders, self.records = ({form: export[i] for form, export in exports.items()} for i in (0, 1))
         self.messages = messages_of_bag(os.path.join(self.folders["rosbag"], "dataset.bag"))
 
@@ -332,7 +332,7 @@ class Ros(datasets.ExportCase):
         scene["objects"][2].update(parent=scene["objects"][0]["name"], orientation=[0.92388, 0, 0, 0.382683])
         with open(path, "w", encoding="utf-8") as file:
             json.dump(scene, file)
-        folder, record = self.export(self.render(path, "color,depth"), "rosbag", "--unit-metres", self.METRES)
+        folder, record = self.export(self.render(path, "color,depth"), "rosbag")
         self.assertEqual(record["conventions"]["sheared_objects_without_axes"], scene["objects"][2]["name"])
         self.assertNotIn("sheared_objects_without_axes", self.records["rosbag"]["conventions"])
         for places in transforms_of(messages_of_bag(os.path.join(folder, "dataset.bag"))).values():
@@ -364,7 +364,7 @@ class Ros(datasets.ExportCase):
             cameras.append(datasets._camera(f"right {number}", [x, height + up, 4.5 + ahead], [x + at, height + up, 0], **{"K": K, **lens}))
         os.mkdir(self.path("pairs"))
         scene = datasets._write(self.path("pairs"), "pairs", {"objects": datasets._objects(), "cameras": cameras})
-        folder, _ = self.export(self.render(scene, "color,depth"), "rosbag", "--unit-metres", self.METRES)
+        folder, _ = self.export(self.render(datasets.in_units(scene, self.METRES), "color,depth"), "rosbag")
         infos = {topic: message for topic, _, message in messages_of_bag(os.path.join(folder, "dataset.bag")) if topic.endswith("/camera_info")}
         for number, (change, pair) in enumerate(rows):
             with self.subTest(change=change):
@@ -374,7 +374,7 @@ class Ros(datasets.ExportCase):
 
     def test_lenses(self):
         """Points of the dataset, by tf and CameraInfo, are in the pixels in which it sees them."""
-        dataset = self.render(datasets.lenses(self.path("lenses")), "color,depth,objects,tracks", "--tracks-step", 6)
+        dataset = self.render(datasets.in_units(datasets.lenses(self.path("lenses"))), "color,depth,objects,tracks", "--tracks-step", 6)
         folder, record = self.export(dataset, "rosbag", "--image-format", "jpg", "--unit-metres", self.METRES)
         messages = messages_of_bag(os.path.join(folder, "dataset.bag"))
         infos = {topic: message for topic, _, message in messages}

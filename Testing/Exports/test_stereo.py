@@ -57,10 +57,10 @@ def evaldisp(found, truth, mask, bad=1.0):
 class Stereo(datasets.ExportCase):
     def setUp(self):
         super().setUp()
-        self.dataset = self.render(datasets.stereo(self.path("scene")), "color,disparity,depth")
+        self.dataset = self.render(datasets.in_units(datasets.stereo(self.path("scene")), 0.5), "color,disparity,depth")
 
     def scene(self, form, frame):
-        folder, _ = self.export(self.dataset, form, "--unit-metres", "0.5")
+        folder, _ = self.export(self.dataset, form)
         if form == "eth3d":
             return [os.path.join(folder, top, f"left_eye_{frame:06d}") for top in ("two_view_training", "two_view_training_gt")]
         return [os.path.join(folder, f"left_eye_{frame:06d}")] * 2
@@ -92,7 +92,7 @@ class Stereo(datasets.ExportCase):
     def test_the_referee_finds_what_is_wrong(self):
         folder, _ = self.export(self.dataset, "middlebury")
         name = "left_eye_000000/"
-        for old, new, layer in ((b"baseline=12", b"baseline=13", "baseline"), (b"doffs=0", b"doffs=1", "doffs"), (b" 47.5;", b" 48;", "intrinsics"),
+        for old, new, layer in ((b"baseline=6", b"baseline=7", "baseline"), (b"doffs=0", b"doffs=1", "doffs"), (b" 47.5;", b" 48;", "intrinsics"),
                                 (b"width=96", b"width=97", "size"), (b"ndisp=", b"ndisp=-", "range")):
             self.assertIn("layer " + layer, self.planted(self.dataset, folder, name + "calib.txt", lambda text, old=old, new=new: text.replace(old, new, 1)))
         flipped = self.planted(self.dataset, folder, name + "disp0.pfm", lambda data: data[:-5] + bytes([data[-5] ^ 64]) + data[-4:])

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import struct
 
 import numpy as np
 
@@ -112,6 +113,36 @@ class Transforms(datasets.ExportCase):
             stem = os.path.splitext(os.path.basename(frame["file_path"]))[0]
             self.assertTrue(np.array_equal(read_png(os.path.join(folder, frame["mask_path"]))[..., 0] == 0, moves))
             self.assertTrue(np.array_equal(read_png(os.path.join(folder, "images", f"dynamic_mask_{stem}.png"))[..., 0] > 0, moves))
+
+    def test_what_comes_and_goes_is_masked(self):
+        """As what moves, in all formats of what stands still; among frames that all have it, it stays."""
+        path = datasets.stereo(self.path("scene"))
+        scene = load_json(path)
+        scene["objects"][1]["visible"] = {"keys": [[0, True], [1, False], [2, True]]}
+        self.write(path, json.dumps(scene))
+        dataset = self.render(path, "normal," + self.LAYERS, *TRACKS)
+        points = load_json(os.path.join(dataset, "tracks", "points.json"))["points"]
+        for frames, held in (("0:2", [1]), ("0:2:2", [1, 2])):
+            folders = {}
+            for form in ("transforms", "colmap", "colmap-dense", "mvsnet"):
+                folders[form], record = self.export(dataset, form, "--frames", frames)
+            for number, entry in enumerate(record["names"]):
+                stays = np.isin(layer_of(dataset, "objects", entry["camera"], entry["frame"]), [0, *held])
+                name = f"{entry['camera'].replace(' ', '_').replace('.', '_')}/{entry['frame']:06d}.png"
+                for mask in (os.path.join(folders["transforms"], "masks", name.replace("/", "_")), os.path.join(folders["colmap"], "masks", name + ".png")):
+                    self.assertTrue(np.array_equal(read_png(mask)[..., 0] > 0, stays), mask)
+                with open(os.path.join(folders["mvsnet"], "rendered_depth_maps", f"{number:08d}.pfm"), "rb") as file:
+                    depth = np.frombuffer(file.read().split(b"\n", 3)[3], "<f4").reshape(72, 96)[::-1]
+                self.assertTrue(np.array_equal(depth > 0, stays & np.isfinite(layer_of(dataset, "depth", entry["camera"], entry["frame"]))))
+            with open(os.path.join(folders["transforms"], "points.ply"), "rb") as file:
+                self.assertIn(f"element vertex {sum(point['object'] in held for point in points)}\n".encode(), file.read())
+            with open(os.path.join(folders["colmap"], "sparse", "0", "points3D.bin"), "rb") as file:
+                rows = file.read()
+            ids, at = [], 8
+            while at < len(rows):
+                ids.append(struct.unpack_from("<Q", rows, at)[0])
+                at += 51 + 8 * struct.unpack_from("<Q", rows, at + 43)[0]
+            self.assertEqual({points[one - 1]["object"] for one in ids}, set(held))
 
     def test_lenses(self):
         dataset = self.render(datasets.lenses(self.path("scene")), self.LAYERS, *TRACKS)

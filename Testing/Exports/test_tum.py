@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """TUM RGB-D, read as the benchmark's tools do: associate.py, evaluate_ate.py, evaluate_rpe.py, generate_pointcloud.py."""
+import json
 import os
 import re
+import shutil
 
 import numpy as np
 
 import datasets
-from datasets import layer_of, main, read_png
+from datasets import layer_of, load_json, main, read_png
 
 
 def read_file_list(path):
@@ -72,7 +74,7 @@ class Tum(datasets.ExportCase):
 
     def setUp(self):
         super().setUp()
-        self.dataset = self.render(datasets.walk(self.path("scene"), empty=False), "color,depth,position")
+        self.dataset = self.render(datasets.in_units(datasets.walk(self.path("scene"), empty=False), self.METRES), "color,depth,position")
         self.sequence, self.record = self.export(self.dataset, "tum", "--unit-metres", self.METRES)
 
     def lists(self):
@@ -204,6 +206,30 @@ class Tum(datasets.ExportCase):
         with open(os.path.join(self.sequence, "depth", "0.080000.png"), "rb") as file:
             other = file.read()
         self.assertIn("layer depth", planted("depth/0.040000.png", lambda data: other))
+
+    def test_a_unit_that_the_dataset_says(self):
+        """To a millionth, which is the rounding of a factor that somebody writes down."""
+        self.export(self.dataset, "tum", "--unit-metres", self.METRES * (1 + 5e-7))
+        for metres in (self.METRES * (1 + 2e-6), self.METRES * (1 - 2e-6), 1e-3):
+            self.refused("export", self.dataset, "--format", "tum", "-o", self.path("none"), "--unit-metres", repr(metres), status=2,
+                         says=f"unit-metres: the dataset says how long its unit is (expected 0.5, found {metres!r})")
+        self.assertFalse(os.path.exists(self.path("none")))
+
+    def test_frames_without_a_time(self):
+        """Times are whole microseconds of 63 bits; numbered frames have none."""
+        def paced(last):
+            copy = self.path(f"paced{last}")
+            shutil.copytree(self.dataset, copy)
+            manifest = load_json(os.path.join(copy, "manifest.json"))
+            self.write(os.path.join(copy, "manifest.json"), json.dumps({**manifest, "fps": 3 / last}))
+            return copy
+
+        folder, _ = self.export(paced(9.1e12), "tum", verify=False)
+        self.assertIn("9100000000000.000000.png", os.listdir(os.path.join(folder, "rgb")))
+        beyond = paced(9.3e12)
+        self.refused("export", beyond, "--format", "tum", "-o", self.path("none"), status=2, says="tum: frame 3 has no time: microseconds have 63 bits")
+        self.assertFalse(os.path.exists(self.path("none")))
+        self.export(beyond, "tum", "--dialect", "icl-nuim", verify=False)
 
 
 if __name__ == "__main__":

@@ -165,6 +165,15 @@ class Judge:
         p = numpy.concatenate([points, numpy.ones(points.shape[:-1] + (1,))], -1) @ self.clip.T
         return (p[..., :2] / p[..., 3:] * [1, -1] + 1) / 2 * [self.width, self.height]
 
+    def around(self, polygon):
+        """The pixels in which a polygon may be: all, where it reaches behind the camera; else a pixel more than its corners span."""
+        if (polygon @ self.clip[3, :3] + self.clip[3, 3] <= 0).any():
+            return numpy.arange(self.width * self.height)
+        corners = self.project(polygon)
+        low = numpy.clip(numpy.floor(corners.min(0)) - 1, 0, [self.width, self.height]).astype(int)
+        high = numpy.clip(numpy.ceil(corners.max(0)) + 1, 0, [self.width, self.height]).astype(int)
+        return (numpy.arange(low[1], high[1])[:, None] * self.width + numpy.arange(low[0], high[0])).ravel()
+
     def find(self, renderer):
         start, end = self.rays()
         direction = end - start
@@ -187,27 +196,29 @@ class Judge:
                 area = normal @ normal
                 if area == 0:
                     continue
-                along = direction @ normal
+                where = self.around(p)
+                along = direction[where] @ normal
                 with numpy.errstate(divide="ignore", invalid="ignore"):
-                    t = ((p[0] - start) @ normal) / along
-                    at = start + t[:, None] * direction
+                    t = ((p[0] - start[where]) @ normal) / along
+                    at = start[where] + t[:, None] * direction[where]
                     within = inside(p, normal, at)
-                shown = numpy.ones(count, bool)
+                shown = numpy.ones(len(where), bool)
                 if cull:
                     shown &= (along < 0) if cull < 0 else (along > 0)
-                edges = self.close_to(self.project(p), centre)
+                edges = self.close_to(self.project(p), centre[where])
                 if planes:
                     for i in range(planes.GetNumberOfItems()):
                         plane = planes.GetItem(i)
                         height = (at - plane.GetOrigin()) @ numpy.array(plane.GetNormal())
                         shown &= height >= 0
                         edges |= within & (numpy.abs(height) < 1e-3)
-                self.near_edge |= edges
-                hit = within & shown & (t < best)
-                best[hit] = t[hit]
-                self.objects[hit], self.cells[hit] = number, cell
-                self.polygon[hit] = index
-                self.position[hit], self.plane[hit] = at[hit], normal / numpy.sqrt(area)
+                self.near_edge[where] |= edges
+                hit = within & shown & (t < best[where])
+                seen = where[hit]
+                best[seen] = t[hit]
+                self.objects[seen], self.cells[seen] = number, cell
+                self.polygon[seen] = index
+                self.position[seen], self.plane[seen] = at[hit], normal / numpy.sqrt(area)
         self.direction = direction
 
     def close_to(self, corners, centre):

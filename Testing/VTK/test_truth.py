@@ -60,7 +60,7 @@ class Truth(unittest.TestCase):
 
 class Pairs(unittest.TestCase):
     """Two snapshots of the same actors: the camera, an actor and points of its data move between them."""
-    SIZE = (60, 45)
+    SIZE = (48, 36)
 
     def follow(self, renderer, move):
         first, right = dgtk.snapshot(renderer, self.SIZE), judge.Judge(renderer, *self.SIZE)

@@ -3,7 +3,7 @@
 import vtk
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-SIZE = (300, 225)
+SIZE = (200, 150)
 
 
 def window(*renderers, size=SIZE):

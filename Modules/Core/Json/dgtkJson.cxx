@@ -140,6 +140,10 @@ std::string jsonString(const std::string& text)
 
 JsonDocument parseJson(const std::string& file, const std::string& contents, std::size_t mostValues)
 {
+  if (contents.rfind("\xFF\xFE", 0) == 0 || contents.rfind("\xFE\xFF", 0) == 0)
+  {
+    throw InputError(file, "is UTF-16", "text in UTF-8");
+  }
   int line = 1;
   JsonTreeBuilder builder(file, line, mostValues);
   nlohmann::json::sax_parse(LineIterator(contents.data(), &line),

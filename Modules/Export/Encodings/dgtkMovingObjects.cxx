@@ -4,21 +4,44 @@
 #include "dgtkExportPng.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace dgtk
 {
 
 std::vector<std::uint32_t> movingObjects(const DatasetView& dataset)
 {
-  std::vector<std::uint32_t> ids;
+  std::set<std::uint32_t> ids;
   for (const ObjectRecord& object : dataset.objects())
   {
     if (!object.isStatic)
     {
-      ids.push_back(object.id);
+      ids.insert(object.id);
     }
   }
-  return ids;
+  std::map<std::uint32_t, bool> there; // at the first frame
+  for (const int frame : dataset.frames())
+  {
+    for (const PoseRecord& pose : dataset.poses(frame))
+    {
+      if (there.emplace(pose.id, pose.visible).first->second != pose.visible)
+      {
+        ids.insert(pose.id);
+      }
+    }
+  }
+  return { ids.begin(), ids.end() };
+}
+
+std::vector<TrackPoint> trackPointsBut(const DatasetView& dataset, const std::vector<std::uint32_t>& ids)
+{
+  std::vector<TrackPoint> points = dataset.trackPoints();
+  for (TrackPoint& point : points)
+  {
+    point.isStatic = point.isStatic && !std::binary_search(ids.begin(), ids.end(), point.object);
+  }
+  return points;
 }
 
 void writeMovingMask(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& name,

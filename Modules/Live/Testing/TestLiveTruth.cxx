@@ -157,14 +157,17 @@ TEST(LiveTruth, LensesAreTheDatasetBitForBit)
   request.height = truthHeight;
   generate(request);
   ThreadPool pool(1);
-  for (const std::size_t camera : { 0, 1, 2 })
+  const SceneDescription scene = readScene(request.scene);
+  ModelLibrary models;
+  models.load(scene);
+  LiveQuestion question;
+  question.scene = std::make_shared<LiveScene>(scene, models);
+  question.frame = 1;
+  question.width = truthWidth;
+  question.height = truthHeight;
+  for (const CameraDescription& camera : scene.cameras)
   {
-    LiveQuestion question = questionOf("Data/Scenes/demo.json", 0, 1);
-    const SceneDescription scene = readScene(request.scene);
-    ModelLibrary models;
-    models.load(scene);
-    question.scene = std::make_shared<LiveScene>(scene, models);
-    question.camera = scene.cameras[camera];
+    question.camera = camera;
     LiveEye eye(question, 1, pool);
     VisibilityBuffer hits;
     ASSERT_TRUE(eye.trace(0, truthHeight, hits));

@@ -54,11 +54,20 @@ Between find(const std::vector<double>& times, double time, import::Interpolatio
 template <int N>
 using Value = Eigen::Matrix<double, N, 1>;
 
+/// Whether nothing changes from a key to the next: what lies between is the same, too, without any rounding.
+template <std::size_t N>
+bool staysAfter(const import::Keys<N>& keys, std::size_t key)
+{
+  const std::array<double, N> zero{};
+  return keys.values[key] == keys.values[key + 1] &&
+         (keys.in.empty() || (keys.out[key] == zero && keys.in[key + 1] == zero));
+}
+
 template <std::size_t N>
 Value<int(N)> blend(const import::Keys<N>& keys, const Between& at)
 {
   using Map = Eigen::Map<const Value<int(N)>>;
-  if (at.atKey)
+  if (at.atKey || staysAfter(keys, at.key))
   {
     return Map(keys.values[at.key].data());
   }
@@ -87,7 +96,7 @@ Eigen::Quaterniond quaternion(const Eigen::Vector4d& q)
 Eigen::Quaterniond rotationAt(const import::Keys<4>& keys, double time)
 {
   const Between at = find(keys.times, time, keys.interpolation);
-  if (at.atKey || keys.interpolation == import::Interpolation::Cubic)
+  if (at.atKey || keys.interpolation == import::Interpolation::Cubic || staysAfter(keys, at.key))
   {
     return quaternion(blend(keys, at));
   }
@@ -120,6 +129,34 @@ Eigen::Affine3d animated(const import::Channel& channel, const Eigen::Affine3d& 
     result.translation() = vectorAt(channel.translation, time);
   }
   return result;
+}
+
+bool areZero(const std::vector<double>& tangents)
+{
+  return std::all_of(tangents.begin(), tangents.end(), [](double t) { return t == 0; });
+}
+
+template <std::size_t N>
+bool areOneValue(const import::Keys<N>& keys)
+{
+  const auto isFirst = [&](const std::array<double, N>& value) { return value == keys.values.front(); };
+  const auto isZero = [](const std::array<double, N>& tangent) { return tangent == std::array<double, N>{}; };
+  return std::all_of(keys.values.begin(), keys.values.end(), isFirst) &&
+         std::all_of(keys.in.begin(), keys.in.end(), isZero) && std::all_of(keys.out.begin(), keys.out.end(), isZero);
+}
+
+bool areOneValue(const import::Channel& channel)
+{
+  return areOneValue(channel.translation) && areOneValue(channel.rotation) && areOneValue(channel.scale);
+}
+
+/// Rows of weights: each is the first one where each value is that of the row before.
+bool areOneRow(const import::MorphChannel& morph)
+{
+  const std::vector<double>& weights = morph.weights;
+  const std::size_t row = std::min<std::size_t>(morph.targets, weights.size());
+  return std::equal(weights.begin() + std::ptrdiff_t(row), weights.end(), weights.begin()) && areZero(morph.in) &&
+         areZero(morph.out);
 }
 
 Eigen::Vector3d point(const import::Float3& p) { return { p[0], p[1], p[2] }; }
@@ -174,6 +211,15 @@ double AssimpDeformation::timeOf(int animation, double frame) const
   return !known || std::isnan(frame) ? 0 : std::clamp(frame / fps, 0.0, known->duration);
 }
 
+bool AssimpDeformation::holds(int animation) const
+{
+  const import::Animation* const known = this->animationOf(animation);
+  return known && known->joints.empty() && known->blends.empty() &&
+         std::all_of(known->channels.begin(), known->channels.end(),
+           [](const import::Channel& channel) { return areOneValue(channel); }) &&
+         std::all_of(known->morphs.begin(), known->morphs.end(), areOneRow);
+}
+
 std::vector<Eigen::Affine3d> AssimpDeformation::pose(int animation, double time) const
 {
   const std::vector<import::Node>& nodes = this->Scene->nodes;
@@ -224,12 +270,14 @@ std::vector<double> AssimpDeformation::weightsAt(const PosedMesh& posed, int ani
     const std::size_t row = at.key * morph.targets;
     for (std::size_t i = 0; i < std::min<std::size_t>(weights.size(), morph.targets); ++i)
     {
-      weights[i] = at.value[0] * morph.weights[row + i];
+      const std::size_t key = row + i;
+      weights[i] = morph.weights[key];
       if (!at.atKey)
       {
-        weights[i] += at.value[1] * morph.weights[row + morph.targets + i];
-        weights[i] +=
-          morph.in.empty() ? 0 : at.tangent[0] * morph.out[row + i] + at.tangent[1] * morph.in[row + morph.targets + i];
+        const std::size_t next = key + morph.targets;
+        const double bent = morph.in.empty() ? 0 : at.tangent[0] * morph.out[key] + at.tangent[1] * morph.in[next];
+        const bool stays = morph.weights[next] == morph.weights[key];
+        weights[i] = (stays ? weights[i] : at.value[0] * weights[i] + at.value[1] * morph.weights[next]) + bent;
       }
     }
   }

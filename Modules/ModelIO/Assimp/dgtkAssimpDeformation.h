@@ -35,6 +35,7 @@ public:
   static constexpr double fps = 30;
 
   void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const override;
+  bool holds(int animation) const override;
   std::string saved() const override;
   /// What saved() said. Throws std::runtime_error when an index is not within its list.
   static std::shared_ptr<AssimpDeformation> restored(const std::string& bytes);

@@ -332,6 +332,7 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
     [&]
     {
       file.emplace(path, contentsOf);
+      scene.declaredMaterials = std::int64_t(file->root().value("materials", Json::array()).size());
       nodes.emplace(*file, scene);
     });
   const std::string ofMotion = nodes ? problemOf([&] { repairMotion(*file, *nodes, scene); }) : problem;

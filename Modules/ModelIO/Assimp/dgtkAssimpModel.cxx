@@ -276,7 +276,8 @@ private:
     {
       declared += material.name != "DefaultMaterial" ? 1 : 0;
     }
-    this->Builder.model().declaredMaterials = declared;
+    const std::int64_t ofFile = this->Scene->declaredMaterials;
+    this->Builder.model().declaredMaterials = ofFile >= 0 ? static_cast<std::size_t>(ofFile) : declared;
     if (this->Points > 0)
     {
       this->Builder.warn(

@@ -181,6 +181,7 @@ struct Scene
   std::vector<Mesh> meshes;
   std::vector<Node> nodes;
   std::vector<Animation> animations;
+  std::int64_t declaredMaterials = -1; ///< in the file, used or not; -1: `materials`
 };
 
 template <class A>
@@ -250,7 +251,7 @@ void io(A& a, Scene& s)
 {
   a.mark(streamBegin);
   a(s.bytesRead), a(s.error), a(s.errorFile), a(s.errorLine), a(s.warnings), a(s.materials), a(s.textures), a(s.meshes),
-    a(s.nodes), a(s.animations);
+    a(s.nodes), a(s.animations), a(s.declaredMaterials);
   a.mark(streamEnd);
 }
 

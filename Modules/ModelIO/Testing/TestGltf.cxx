@@ -269,6 +269,37 @@ TEST(Gltf, WhatMovesIsSeen)
   }
 }
 
+TEST(Gltf, AnAnimationOfOneValueHolds)
+{
+  using dgtk::import::Scene;
+  const auto holds = [](const auto& change)
+  {
+    auto scene = std::make_shared<Scene>();
+    scene->animations.resize(1);
+    dgtk::import::Animation& animation = scene->animations[0];
+    animation.channels.resize(1);
+    animation.channels[0].rotation.times = { 0, 1, 2 };
+    animation.channels[0].rotation.values = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, { 1, 0, 0, 0 } };
+    animation.channels[0].scale = { { 0 }, { { 2, 2, 2 } }, dgtk::import::Interpolation::Cubic, { {} }, { {} } };
+    animation.morphs.resize(1);
+    animation.morphs[0] = { 0, { 0, 1, 2 }, 2, { 0.25, 0.5, 0.25, 0.5, 0.25, 0.5 }, {}, {}, {} };
+    change(animation);
+    return dgtk::AssimpDeformation(scene, {}).holds(0);
+  };
+  using Animation = dgtk::import::Animation;
+  EXPECT_TRUE(holds([](Animation&) {}));
+  EXPECT_FALSE(holds([](Animation& a) { a.channels[0].rotation.values[2][3] = 0.1; }));
+  EXPECT_FALSE(holds([](Animation& a) { a.channels[0].scale.in[0][1] = 1; }));
+  EXPECT_FALSE(holds([](Animation& a) { a.channels[0].scale.out[0][2] = 1; }));
+  EXPECT_FALSE(holds([](Animation& a) { a.channels[0].translation.values = { { 0, 0, 0 }, { 0, 0, 1 } }; }));
+  EXPECT_FALSE(holds([](Animation& a) { a.morphs[0].weights[5] = 0.25; }));
+  EXPECT_FALSE(holds([](Animation& a) { a.morphs[0].in = { 0, 0, 0, 0, 0, 1 }; }));
+  EXPECT_FALSE(holds([](Animation& a) { a.morphs[0].out = { 1, 0, 0, 0, 0, 0 }; }));
+  EXPECT_FALSE(holds([](Animation& a) { a.joints.resize(1); })) << "curves of FBX are not looked at";
+  EXPECT_FALSE(holds([](Animation& a) { a.blends.resize(1); }));
+  EXPECT_FALSE(dgtk::AssimpDeformation(std::make_shared<Scene>(), {}).holds(0)) << "there is none";
+}
+
 TEST(Gltf, WeightsOfJointsAreSharesOfTheirSum)
 {
   const dgtk::import::Matrix still = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };

@@ -56,6 +56,17 @@ TEST(Gltf, MetalRoughnessMaterial)
   EXPECT_EQ(model->twoSidedTriangles, 1u);
 }
 
+TEST(Gltf, MaterialsAreCountedAsInTheFile)
+{
+  GltfMaker maker = plain({ { "name", "one" } });
+  EXPECT_EQ(readBytes("gltf", maker.gltf())->declaredMaterials, 1u);
+  maker.json["materials"] = { { { "name", "one" } }, { { "name", "as one" } }, { { "name", "unused" } } };
+  EXPECT_EQ(readBytes("glb", maker.glb())->declaredMaterials, 3u);
+  maker.json.erase("materials");
+  maker.json["meshes"][0]["primitives"][0].erase("material");
+  EXPECT_EQ(readBytes("gltf", maker.gltf())->declaredMaterials, 0u);
+}
+
 TEST(Gltf, MapsOfAPhysicallyBasedMaterial)
 {
   const std::string png(reinterpret_cast<const char*>(tinyPng), sizeof tinyPng);

@@ -387,7 +387,7 @@ TEST(ModelWhole, Gltf)
     { "normalTexture", { { "index", 1 }, { "scale", 0.5 } } },
     { "occlusionTexture", { { "index", 4 }, { "strength", 0.5 } } }, { "emissiveTexture", { { "index", 3 } } } } };
   EXPECT_EQ(whole("gltf", maker.gltf()), R"(
-gltf: 8 vertices, 8 split, 4 triangles, declared 0, two-sided 4 of 0, lines 0, materials 2, frames 1
+gltf: 8 vertices, 8 split, 4 triangles, declared 0, two-sided 4 of 0, lines 0, materials 1, frames 1
 bounds -1 0 0 to 11 42 30
 material 'all' ambient 0.2 0.1471 0.1074 diffuse 1 0.7354 0.5371 specular 0.2934 0.2173 0.1646 emission 1 0.7354 0.5371 shininess 4.321 opacity 0.5 two-sided texture 0 normals 1 metal 2 emissions 3 occlusion 4 normal scale 0.5 strength 0.5 physical 0.25 0.75
 texture base.png

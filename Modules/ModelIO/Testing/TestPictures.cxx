@@ -357,7 +357,7 @@ TEST(Pictures, ChannelsAreGreyOrColourAndAlpha)
 
 TEST(Pictures, DamagedOnesOfEveryFormatAreDecodedOrRefused)
 {
-  constexpr std::uint64_t variants = 40;
+  const std::uint64_t variants = sweepsAreWhole() ? 40 : 12;
   const TemporaryFolder folder;
   int refused = 0;
   int decoded = 0;
@@ -385,8 +385,8 @@ TEST(Pictures, DamagedOnesOfEveryFormatAreDecodedOrRefused)
       }
     }
   }
-  EXPECT_GT(refused, 100);
-  EXPECT_GT(decoded, 100);
+  EXPECT_GT(refused, 2.5 * double(variants));
+  EXPECT_GT(decoded, 2.5 * double(variants));
 }
 
 TEST(Pictures, TheTextOfTheirLibrariesIsNotForUsers)

@@ -223,6 +223,25 @@ TEST(TextureFile, WhatIsACutOut)
   EXPECT_EQ(texel(*unused, 0, 0)[3], 255) << "an alpha channel that was never painted";
 }
 
+TEST(TextureFile, ColourMapsBeginWithTheirFirstEntry)
+{
+  const auto mapped = [](char kind, char first, const std::string& pixels)
+  {
+    return std::string{ 0, 1, kind, first, 0, 2, 0, 24, 0, 0, 0, 0 } + u16(2) + u16(1) + std::string{ 8, 0x20 } +
+           std::string{ 3, 2, 1, 6, 5, 4 } + pixels;
+  };
+  for (const auto& [kind, before] : { std::pair<char, std::string>{ 1, "" }, { 9, "\x01" } })
+  {
+    const auto image = decoded("a.tga", mapped(kind, 0, before + std::string{ 1, 0 }));
+    ASSERT_TRUE(image);
+    EXPECT_EQ(texel(*image, 0, 0), (std::vector<int>{ 4, 5, 6, 255 }));
+    EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 1, 2, 3, 255 }));
+    std::string problem;
+    EXPECT_FALSE(decoded("a.tga", mapped(kind, 3, before + std::string{ 4, 3 }), &problem));
+    EXPECT_THAT(problem, HasSubstr("has a colour map that does not begin with entry 0"));
+  }
+}
+
 TEST(TextureFile, GreyPictures)
 {
   const auto image = decoded("a.pgm", "P5 2 1 255\n" + std::string("\x10\xf0"));

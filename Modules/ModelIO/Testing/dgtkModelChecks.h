@@ -25,10 +25,13 @@ std::shared_ptr<const Model> readBytes(const std::string& extension, const std::
 /// The text of the InputError that reading throws, without the folder of the file; "" when it does not throw.
 std::string refusal(const std::string& extension, const std::string& bytes);
 
-/// Reads at least `variants` truncated and mutated copies of the seeds (seeded, always the same) and fails the running
-/// test for anything but a consistent model or an InputError of one line, for more than 2 s of the processor, for a
-/// partial model of a truncated file without a warning where the format `knowsItsEnd`, and for more memory than 10
-/// times the file and 64 MiB.
+/// Whether sweeps are as broad as they can be (DGTK_TEST_WHOLE); a thin one takes the first of what chance deals.
+bool sweepsAreWhole();
+
+/// Reads at least `variants` (a quarter in a thin sweep) truncated and mutated copies of the seeds (seeded, always the
+/// same) and fails the running test for anything but a consistent model or an InputError of one line, for more than 2 s
+/// of the processor, for a partial model of a truncated file without a warning where the format `knowsItsEnd`, and for
+/// more memory than 10 times the file and 64 MiB.
 void fuzzReader(
   const std::string& extension, const std::vector<std::string>& seeds, int variants = 2000, bool knowsItsEnd = true);
 

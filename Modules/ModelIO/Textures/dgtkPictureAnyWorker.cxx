@@ -160,6 +160,18 @@ void readRadianceHeader(const std::string& path, Placing& placing)
   (x == 0 ? placing.along : placing.across) = { 0, down };
 }
 
+/// Colours of a picture whose colour map lacks its first entries come from others in OpenImageIO.
+void requireWholeMap(const std::string& path)
+{
+  std::array<char, 5> head{}; // ..., kind of the picture, the map's first entry
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  const bool mapped = head[2] == 1 || head[2] == 9;
+  if (mapped && (head[3] != 0 || head[4] != 0))
+  {
+    throw std::runtime_error("has a colour map that does not begin with entry 0");
+  }
+}
+
 Placing placingOf(const OIIO::ImageInput& input, const std::string& path)
 {
   const OIIO::ImageSpec& spec = input.spec();
@@ -173,6 +185,10 @@ Placing placingOf(const OIIO::ImageInput& input, const std::string& path)
   else if (format == "hdr")
   {
     readRadianceHeader(path, placing);
+  }
+  else if (format == "targa")
+  {
+    requireWholeMap(path);
   }
   return placing;
 }

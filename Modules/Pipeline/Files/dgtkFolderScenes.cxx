@@ -17,6 +17,21 @@ namespace
 {
 namespace fs = std::filesystem;
 
+/// Of a file that cannot be read as a scene: one, that says so when it is rendered, and keeps no other from it.
+SceneOutline outlineOrFailing(const std::string& path)
+{
+  try
+  {
+    return outlineOf(path);
+  }
+  catch (const InputError&)
+  {
+    SceneOutline failing;
+    failing.isScene = true;
+    return failing;
+  }
+}
+
 /// Numbers the classes of all scenes of a folder.
 class ClassNumbers
 {
@@ -86,7 +101,8 @@ FolderScenes scenesIn(const std::string& folder)
   for (const std::string& name : names)
   {
     const std::string path = folder + '/' + name;
-    const SceneOutline outline = outlineOf(path);
+    const bool isOfMac = name.rfind("._", 0) == 0; // what macOS writes beside a file
+    const SceneOutline outline = isOfMac ? SceneOutline() : outlineOrFailing(path);
     if (!outline.isScene)
     {
       files.leftOut.push_back(name);

@@ -120,10 +120,14 @@ std::set<std::string> readableSamples()
   return names;
 }
 
-std::vector<Case> sampleModels()
+const std::vector<Case>& sampleModels()
 {
+  static std::vector<Case> cases; // read once
+  if (!cases.empty())
+  {
+    return cases;
+  }
   const std::set<std::string> readable = readableSamples();
-  std::vector<Case> cases;
   const std::vector<std::string> extensions = { ".ac", ".acc", ".md2", ".3ds", ".pov", ".obj", ".gltf", ".glb", ".ply",
     ".stl", ".off", ".dae" };
   for (const std::string& folder : { sourceFile("Data/Models"), extraModels() })
@@ -141,9 +145,13 @@ std::vector<Case> sampleModels()
 }
 
 /// First and middle frame of each scene, every camera that OpenGL can draw (three at most).
-std::vector<Case> sampleScenes()
+const std::vector<Case>& sampleScenes()
 {
-  std::vector<Case> cases;
+  static std::vector<Case> cases; // read once
+  if (!cases.empty())
+  {
+    return cases;
+  }
   for (const std::string& path : filesBelow(sourceFile("Data/Scenes"), { ".json", ".scene" }))
   {
     const auto stage = Stage::load(readScene(path));

@@ -71,7 +71,7 @@ int main(int argc, char** argv)
     }
     const auto engine = makeRasterSource(backend);
     std::printf("%s\n", engine->choice().description.c_str());
-    const View view = viewOf(makePinholeFromFov(320, 240, 50, 0), { 1, 2, 9 }, { 0, 0, 0 });
+    const View view = viewOf(makePinholeFromFov(160, 120, 50, 0), { 1, 2, 9 }, { 0, 0, 0 });
     engine->setScene(scene(), view);
     VisibilityBuffer hits;
     ColorBuffer colors;

@@ -129,7 +129,8 @@ function valueText(layer, block, values, sample, scene) {
   if (isId) return String(id);
   if (v.every((one) => !Number.isFinite(one))) return `nothing (${numberText(v[0], block.type)})`;
   const list = v.map((one) => numberText(one, block.type)).join(', ');
-  const text = (v.length === 1 ? list : `(${list})`) + (layer.meaning === 'picture' || layer.meaning === 'mask' ? '' : unitOf(layer.unit));
+  const levels = ['picture', 'mask'].includes(layer.meaning) || (block.type === 'uint8' && ['depth', 'distance'].includes(layer.meaning));
+  const text = (v.length === 1 ? list : `(${list})`) + (levels ? '' : unitOf(layer.unit));
   return layer.meaning === 'displacement' && v.length > 1 ? `${text}, ${short(Math.hypot(...v), 5)} long` : text;
 }
 
@@ -405,13 +406,14 @@ function planPicture(plan, frame) {
   const scale = Math.min(width / extent.width, height / extent.height);
   const X = (x) => (x - extent.left - extent.width / 2) * scale + width / 2;
   const Y = (y) => (y - extent.top - extent.height / 2) * scale + height / 2;
-  const svg = draw('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `Plan: ${plan.cameras.length} cameras and ${plan.objects.length} objects from above at frame ${frame}` });
+  const there = plan.objects.filter((object) => !object.hidden.includes(frame));
+  const svg = draw('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `Plan: ${plan.cameras.length} cameras and ${there.length} objects from above at frame ${frame}` });
   const step = niceStep(Math.max(extent.width, extent.height) / 5);
   for (let x = Math.ceil((extent.left + extent.width / 2 - width / scale) / step) * step; X(x) < width; x += step) if (X(x) > 0) svg.append(draw('line', { class: 'grid', x1: X(x), x2: X(x), y1: 0, y2: height }));
   for (let y = Math.ceil((extent.top + extent.height / 2 - height / scale) / step) * step; Y(y) < height; y += step) svg.append(draw('line', { class: 'grid', x1: 0, x2: width, y1: Y(y), y2: Y(y) }));
   const labels = [];
   const area = (object) => { const f = footprint(object.places[0]); return f.length ? Math.max(...f.map((p) => p[0])) - Math.min(...f.map((p) => p[0])) : 0; };
-  for (const object of [...plan.objects].sort((a, b) => area(b) - area(a))) {
+  for (const object of there.sort((a, b) => area(b) - area(a))) {
     const color = rgb(idColor(object.id));
     const place = placeAt(object.places, frame);
     const name = objectText(plan.scene, object.id);
@@ -430,13 +432,9 @@ function planPicture(plan, frame) {
     if (!place) continue;
     const group = draw('g', {}, draw('title', {}, `${camera.name} (${camera.model})`));
     if (camera.places.length > 1) group.append(draw('polyline', { class: 'way', stroke: 'var(--mark)', 'stroke-dasharray': '4 3', points: camera.places.map((p) => `${X(p[1])},${Y(p[2])}`).join(' ') }));
-    const flat = Math.hypot(place[4], place[5]);
-    if (flat > 1e-3) {
-      const direction = Math.atan2(place[5], place[4]);
-      const half = Math.min(camera.half ?? 0.12, 1.4);
-      const end = (turn) => `${X(place[1]) + long * flat * Math.cos(direction + turn)},${Y(place[2]) + long * flat * Math.sin(direction + turn)}`;
-      group.append(draw('polygon', { class: 'cone', points: `${X(place[1])},${Y(place[2])} ${end(-half)} ${end(half)}` }));
-    }
+    const [u, v] = place.slice(4);
+    const ends = place.length > 6 ? [6, 8, 10, 12].map((i) => place.slice(i, i + 2)) : [[u + 0.12 * v, v - 0.12 * u], [u - 0.12 * v, v + 0.12 * u]];
+    group.append(draw('polygon', { class: 'cone', points: hull([[0, 0], ...ends]).map((p) => `${X(place[1]) + long * p[0]},${Y(place[2]) + long * p[1]}`).join(' ') }));
     group.append(draw('circle', { class: 'eye', cx: X(place[1]), cy: Y(place[2]), r: 4.5 }));
     svg.append(group);
     if (plan.cameras.length <= 24) labels.push([X(place[1]) + 7, Y(place[2]) - 6, camera.name]);
@@ -540,7 +538,7 @@ function distributions() {
     if (layer.numbers) {
       const t = layer.numbers;
       const kind = layer.meaning === 'displacement' ? `length of ${layer.label}` : layer.label;
-      card(kind, `${summary(t, unitOf(layer.unit))}; pixels by value, equal steps of the logarithm`, numberBars(t, `Distribution of ${kind}`),
+      card(kind, `${summary(t, unitOf(layer.unit))}; pixels by value, eight equal steps an octave or several of these`, numberBars(t, `Distribution of ${kind}`),
         [['pictures', count(layer.pictures)], ['values', count(t.values)], ['nothing there', count(t.nothing)], ['zero', count(t.zero)], ['negative', count(t.negative)], ['least', t.least ?? '–'], ['largest', t.most ?? '–'], ['mean', t.mean ?? '–']]);
     }
     if (layer.brightness) {
@@ -608,9 +606,10 @@ function frames() {
 }
 function checks() {
   const parts = [];
+  const doubt = (one) => (one.same ? '' : one.same === false ? 'of an earlier state, or of another dataset' : 'does not say of which dataset');
   const v = model.verification;
   if (v) {
-    parts.push(make('p', {}, 'Verification: ', make('span', { class: v.passed ? 'good' : 'bad' }, v.passed ? '✓ passed' : '✗ a breach'), ` – ${many(v.residuals.length, 'residual')}`));
+    parts.push(make('p', {}, 'Verification: ', make('span', { class: v.same && v.passed ? 'good' : 'bad' }, doubt(v) || (v.passed ? '✓ passed' : '✗ a breach')), ` – ${many(v.residuals.length, 'residual')}`));
     parts.push(table('Verification', ['check', 'layer', '#values', '#open', '#largest', '#tolerance', 'unit', ''], v.residuals.map((row) => [row.check ?? '', row.layer ?? '', count(row.count ?? 0), count(row.skipped ?? 0), String(row.largest ?? '–'), String(row.tolerance ?? ''), row.unit ?? '',
       make('span', { class: row.breach ? 'bad' : 'good' }, row.breach ? 'breach' : 'ok')])));
     if (v.unchecked.length > 0) parts.push(table('Not compared by any check', ['layer', 'format', '#files'], v.unchecked.map((row) => [row.layer ?? '', row.format ?? '', count(row.files ?? 0)])));
@@ -618,6 +617,7 @@ function checks() {
     parts.push(make('p', { class: 'note' }, 'No verification was given.'));
   }
   for (const one of model.exports) {
+    if (!one.same) parts.push(make('p', { class: 'bad' }, `Export ${one.format}: ${doubt(one)}`));
     parts.push(table(`Export ${one.format}: ${many(one.files, 'file')}`, ['layer', '#largest rounding', 'unit', '#values', '#without a code'], one.layers.map((row) => [row.layer, short(row.largest), row.unit, count(row.values), count(row.withoutCode)])));
   }
   if (model.exports.length === 0) parts.push(make('p', { class: 'note' }, 'No export was given: how much its values are rounded is not shown.'));

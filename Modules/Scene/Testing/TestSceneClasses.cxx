@@ -19,7 +19,7 @@ TEST(SceneRefusals, Classes)
   EXPECT_EQ(of("{\"tree\": 1}"), "");
   EXPECT_EQ(of("{\"tree\": {\"id\": 65535}}"), "");
   EXPECT_EQ(of("{\"car\": 1, \"house\": 2}"),
-    "a.json:2: objects[0].class has no number in \"classes\" (expected one of 'car', 'house', found 'tree')");
+    "a.json:2: objects[0].class has no number in the given classes (expected one of 'car', 'house', found 'tree')");
   EXPECT_EQ(
     of("{\"tree\": 0}"), "a.json:1: classes.tree is out of range (expected a whole number from 1 to 65535, found 0)");
   EXPECT_THAT(of("{\"tree\": 65536}"), HasSubstr("classes.tree is out of range"));

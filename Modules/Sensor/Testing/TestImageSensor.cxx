@@ -12,16 +12,17 @@ namespace dgtk::test
 namespace
 {
 // A million pixels of three channels: a variance has a relative standard error of 0.08 %, a rate p of
-// 0.1 % sqrt((1 - p) / p), a correlation of 0.0006.
+// 0.1 % sqrt((1 - p) / p), a correlation of 0.0006. A quarter of them has twice that.
 constexpr int sensorSide = 1000;
+constexpr int sensorQuarter = 250;
 constexpr double sensorPercent = 0.01;
 
-ImageSensorSetup setupOf(const ColorSensorParameters& parameters, int frame = 0)
+ImageSensorSetup setupOf(const ColorSensorParameters& parameters, int frame = 0, int height = sensorSide)
 {
   ImageSensorSetup setup;
   setup.parameters = parameters;
   setup.width = sensorSide;
-  setup.height = sensorSide;
+  setup.height = height;
   setup.key = { 11, 0, frame };
   return setup;
 }
@@ -82,7 +83,7 @@ TEST(ImageSensor, VarianceAgainstMeanIsTheLineOfThePhotonTransferMethod)
   double sumXX = 0, sumXY = 0, sumX = 0, sumY = 0, n = 0;
   for (const double level : { 0.0, 0.1, 0.5 })
   {
-    const Statistics s = statisticsOf(expose(setupOf(p), grey(level)));
+    const Statistics s = statisticsOf(expose(setupOf(p, 0, sensorQuarter), grey(level)));
     const double electrons = level * p.fullWell + p.darkSignal;
     EXPECT_NEAR((s.mean - p.blackLevel) / (electrons * perElectron), 1, sensorPercent) << level;
     EXPECT_NEAR(s.variance / ((electrons + p.readNoise * p.readNoise) * perElectron * perElectron), 1, sensorPercent)
@@ -211,20 +212,20 @@ TEST(ImageSensor, TheFullWellHoldsNoMoreElectrons)
   ColorSensorParameters p = idealLinear();
   p.gain = 0.5;
   p.exposure = 3;
-  for (const float value : expose(setupOf(p), grey(1)))
+  for (const float value : expose(setupOf(p, 0, sensorQuarter), grey(1)))
   {
     ASSERT_EQ(value, 0.5F);
   }
   // Read noise comes behind the saturation: it is all the noise there is.
   p.shotNoise = true;
   p.readNoise = 40;
-  const Statistics full = statisticsOf(expose(setupOf(p), grey(1)));
+  const Statistics full = statisticsOf(expose(setupOf(p, 0, sensorQuarter), grey(1)));
   EXPECT_NEAR(full.mean / 0.5, 1, 1e-4);
   EXPECT_NEAR(std::sqrt(full.variance) / (p.readNoise * p.gain / p.fullWell), 1, sensorPercent);
   // So does what the reading adds: offsets of pixels, rows and columns.
   p.readNoise = 0;
   p.dsnu = 40;
-  const Statistics offsets = statisticsOf(expose(setupOf(p), grey(1)));
+  const Statistics offsets = statisticsOf(expose(setupOf(p, 0, sensorQuarter), grey(1)));
   EXPECT_NEAR(offsets.mean / 0.5, 1, 1e-4);
   EXPECT_NEAR(std::sqrt(offsets.variance) / (p.dsnu * p.gain / p.fullWell), 1, sensorPercent);
   p.dsnu = 0;
@@ -232,7 +233,7 @@ TEST(ImageSensor, TheFullWellHoldsNoMoreElectrons)
   // variance.
   p.exposure = 1;
   p.readNoise = 0;
-  const Statistics half = statisticsOf(expose(setupOf(p), grey(1)));
+  const Statistics half = statisticsOf(expose(setupOf(p, 0, sensorQuarter), grey(1)));
   EXPECT_NEAR((p.fullWell - half.mean / p.gain * p.fullWell) / std::sqrt(p.fullWell / (2 * pi)), 1, sensorPercent);
   EXPECT_NEAR(half.variance / (p.gain * p.gain / p.fullWell * (0.5 - 0.5 / pi)), 1, 2 * sensorPercent);
 }
@@ -241,16 +242,16 @@ TEST(ImageSensor, FixedPatternIsThatOfEveryFrameAndHasItsSpread)
 {
   ColorSensorParameters p = idealLinear();
   p.prnu = 0.03;
-  const std::vector<float> image = expose(setupOf(p, 0), grey(0.5));
-  EXPECT_EQ(image, expose(setupOf(p, 7), grey(0.5)));
+  const std::vector<float> image = expose(setupOf(p, 0, sensorQuarter), grey(0.5));
+  EXPECT_EQ(image, expose(setupOf(p, 7, sensorQuarter), grey(0.5)));
   EXPECT_NEAR(std::sqrt(statisticsOf(image).variance) / (0.03 * 0.5), 1, sensorPercent);
   p = idealLinear();
   p.dsnu = 50;
   p.blackLevel = 0.2;
-  const std::vector<float> dark = expose(setupOf(p, 0), grey(0));
-  EXPECT_EQ(dark, expose(setupOf(p, 7), grey(0)));
+  const std::vector<float> dark = expose(setupOf(p, 0, sensorQuarter), grey(0));
+  EXPECT_EQ(dark, expose(setupOf(p, 7, sensorQuarter), grey(0)));
   EXPECT_NEAR(std::sqrt(statisticsOf(dark).variance) / (50 / p.fullWell), 1, sensorPercent);
-  ImageSensorSetup other = setupOf(p, 0);
+  ImageSensorSetup other = setupOf(p, 0, sensorQuarter);
   other.key.camera = 1;
   EXPECT_NE(dark, expose(other, grey(0)));
 }

@@ -38,6 +38,8 @@ std::vector<float> expose(
       }
     },
     pool);
+  double last = 0; // the same again costs nothing
+  float lastEncoded = static_cast<float>(portable::srgbFromLinear(last));
   for (int y = 0; y < setup.height; y += rowsAtOnce)
   {
     const int rows = std::min(rowsAtOnce, setup.height - y);
@@ -48,7 +50,10 @@ std::vector<float> expose(
       {
         for (int c = 0; c < 3; ++c)
         {
-          encoded.push_back(static_cast<float>(portable::srgbFromLinear(light(x, r, c))));
+          const double value = light(x, r, c);
+          lastEncoded = value == last ? lastEncoded : static_cast<float>(portable::srgbFromLinear(value));
+          last = value;
+          encoded.push_back(lastEncoded);
         }
       }
     }

@@ -3,6 +3,8 @@
 #include "dgtkMasks.h"
 
 #include <algorithm>
+#include <iterator>
+#include <unordered_map>
 
 namespace dgtk
 {
@@ -25,11 +27,20 @@ Meter everyPixel(Picture& picture, const PixelCheck& check)
     });
 }
 
-const ObjectRecord* recordOf(const Dataset& dataset, std::uint32_t id)
+/// What a row of pixels shows, by their columns: ids of the masks that hold them, sorted.
+std::vector<std::vector<std::uint32_t>> masksOfRow(const Masks& masks, int y, std::uint32_t largest)
 {
-  const auto found = std::find_if(
-    dataset.objects().begin(), dataset.objects().end(), [&](const ObjectRecord& object) { return object.id == id; });
-  return found == dataset.objects().end() ? nullptr : &*found;
+  std::vector<std::vector<std::uint32_t>> ids(static_cast<std::size_t>(masks.width));
+  for (auto mask = masks.byId.lower_bound(1); mask != masks.byId.end() && mask->first <= largest; ++mask)
+  {
+    const auto row = mask->second.begin() + std::ptrdiff_t(y) * masks.width;
+    const auto end = row + masks.width;
+    for (auto inside = std::find(row, end, 1); inside != end; inside = std::find(inside + 1, end, 1))
+    {
+      ids[std::size_t(inside - row)].push_back(mask->first);
+    }
+  }
+  return ids;
 }
 
 /// Objects whose surfaces a ray meets, sorted.
@@ -59,7 +70,7 @@ bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id)
 void checkMasks(
   Picture& picture, const std::string& file, const Masks& masks, const PicturePointer& labels, Results& results)
 {
-  const std::size_t objects = picture.sight().state().instances.size();
+  const auto objects = static_cast<std::uint32_t>(picture.sight().state().instances.size());
   const auto isOpen = [&](int x, int y, std::uint32_t id, bool found)
   {
     if (found && labels && labels->id(x, y) == id)
@@ -78,33 +89,50 @@ void checkMasks(
     const std::vector<Hit> nearby = picture.nearby(x, y);
     return found && std::any_of(nearby.begin(), nearby.end(), [&](const Hit& hit) { return hit.object == id; });
   };
-  results.add({ "amodal", "", { file } },
-    everyPixel(picture,
-      [&](int x, int y, Meter& meter)
+  const auto judge = [&](int x, int y, const std::vector<std::uint32_t>& inside, Meter& meter)
+  {
+    const std::vector<std::uint32_t> along = objectsAlong(picture.sight(x, y), centreOf(x, y));
+    std::vector<std::uint32_t> differing;
+    std::set_symmetric_difference(
+      inside.begin(), inside.end(), along.begin(), along.end(), std::back_inserter(differing));
+    meter.good(objects - differing.size());
+    for (const std::uint32_t id : differing)
+    {
+      const bool found = contains(inside, id);
+      if (meter.Bad < usualPatience && isOpen(x, y, id, found))
       {
-        const std::vector<std::uint32_t> along = objectsAlong(picture.sight(x, y), centreOf(x, y));
-        for (std::uint32_t id = 1; id <= objects; ++id)
+        meter.skip();
+        continue;
+      }
+      meter.equal(false,
+        [&]
         {
-          const bool found = masks.inside(id, x, y);
-          if (found != contains(along, id) && meter.Bad < usualPatience && isOpen(x, y, id, found))
-          {
-            meter.skip();
-            continue;
-          }
-          meter.equal(found == contains(along, id),
-            [&]
-            {
-              return Offender{ file, x, y, "object " + std::to_string(id) + (found ? " inside" : " outside"),
-                found ? "outside" : "inside" };
-            });
-        }
-      }));
+          return Offender{ file, x, y, "object " + std::to_string(id) + (found ? " inside" : " outside"),
+            found ? "outside" : "inside" };
+        });
+    }
+  };
+  const Meter meter = meterRows(picture.pool(), picture.height(), 0,
+    [&](int y, Meter& row)
+    {
+      const std::vector<std::vector<std::uint32_t>> inside = masksOfRow(masks, y, objects);
+      for (int x = 0; x < picture.width(); ++x)
+      {
+        judge(x, y, inside[std::size_t(x)], row);
+      }
+    });
+  results.add({ "amodal", "", { file } }, meter);
 }
 } // namespace
 
 void checkPartition(Picture& picture, Results& results)
 {
   const Dataset& dataset = picture.dataset();
+  std::unordered_map<std::uint32_t, std::uint32_t> classOf; // of an object's id
+  for (const ObjectRecord& object : dataset.objects())
+  {
+    classOf.emplace(object.id, object.classId);
+  }
   const PicturePointer objects = picture.quietly([&] { return picture.ids("objects"); });
   if (objects)
   {
@@ -113,7 +141,7 @@ void checkPartition(Picture& picture, Results& results)
         [&](int x, int y, Meter& meter)
         {
           const std::uint32_t id = objects->id(x, y);
-          meter.equal(id == 0 || recordOf(dataset, id),
+          meter.equal(id == 0 || classOf.count(id) > 0,
             [&] { return objects->offender(x, y, std::to_string(id), "an id of objects.json"); });
         }));
   }
@@ -126,8 +154,8 @@ void checkPartition(Picture& picture, Results& results)
         everyPixel(picture,
           [&](int x, int y, Meter& meter)
           {
-            const ObjectRecord* record = recordOf(dataset, objects->id(x, y));
-            const std::uint32_t expected = record ? record->classId : 0;
+            const auto own = classOf.find(objects->id(x, y));
+            const std::uint32_t expected = own == classOf.end() ? 0 : own->second;
             const std::uint32_t found = classes->id(x, y);
             meter.equal(found == expected,
               [&] { return classes->offender(x, y, std::to_string(found), std::to_string(expected)); });

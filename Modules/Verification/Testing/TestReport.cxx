@@ -33,6 +33,7 @@ Residual residualOf(const std::string& check, const std::string& layer, std::uin
 VerificationReport mixed()
 {
   VerificationReport report;
+  report.manifestHash = "0123abcd";
   report.residuals.push_back(residualOf("hashes", "", 12, 0, 0, 0, 0));
   report.residuals.push_back(residualOf("flow", "flow_forward", 100, 3, 2, 1.5, 0.001));
   report.residuals.back().worst = { "left/flow_forward/000001.flo", 0, 7, "(1, 2)", "(1, 3.5)" };
@@ -80,6 +81,7 @@ TEST(Report, AsADocument)
   EXPECT_EQ(verificationText(mixed()), R"json({
   "format": "DGTk verification",
   "format_version": 1,
+  "dataset_manifest": "0123abcd",
   "passed": false,
   "residuals": [
     {
@@ -167,7 +169,7 @@ TEST(Report, AsADocument)
 )json");
   VerificationReport clean;
   clean.residuals.push_back(residualOf("a", "b", 1, 0, 0, 0.25, 1));
-  EXPECT_NE(verificationText(clean).find("\"passed\": true"), std::string::npos);
+  EXPECT_NE(verificationText(clean).find("\"format_version\": 1,\n  \"passed\": true"), std::string::npos);
 }
 
 TEST(Report, AsALine)

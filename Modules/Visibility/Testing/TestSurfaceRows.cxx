@@ -189,9 +189,9 @@ TEST(SurfaceRows, DenseTerrainWithTrianglesBelowAPixel)
   ViewOptions options;
   options.eye = { 0, 6, 45 };
   options.lookAt = { 0, 0, 20 };
-  options.width = 160;
-  options.height = 120;
-  check(*SceneBuilder().add(makeTerrain({ 300, 100, 1, 3 })).state(), makeView(options), 1e-9);
+  options.width = 80;
+  options.height = 60;
+  check(*SceneBuilder().add(makeTerrain({ 150, 100, 1, 3 })).state(), makeView(options), 1e-9);
 }
 
 TEST(SurfaceRows, SoupAndTelephoto)

@@ -40,5 +40,5 @@ std::unique_ptr<LayerWriter> openText(
 }
 
 const WriterEntry entry = { &canWriteText, &openText };
-const bool added = addWriter({ "Text", "text", "txt", "numbers as text" }, entry); // the row
+const bool writerAdded = addWriter({ "Text", "text", "txt", "numbers as text" }, entry); // the row
 } // namespace

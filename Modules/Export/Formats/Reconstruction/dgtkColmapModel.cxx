@@ -4,6 +4,7 @@
 
 #include "dgtkExportChecks.h"
 #include "dgtkLayerFile.h"
+#include "dgtkMovingObjects.h"
 
 #include <Eigen/Geometry>
 
@@ -78,7 +79,7 @@ public:
     : Dataset(dataset)
     , Shown(views)
     , Binary(binary)
-    , Points(dataset.trackPoints())
+    , Points(trackPointsBut(dataset, leftOut(dataset, views)))
     , PointsInWorld(positionsOf(dataset, views, this->Points))
     , Seen(this->Points.size(), 0)
   {

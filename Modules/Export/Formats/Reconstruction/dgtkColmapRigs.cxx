@@ -18,9 +18,10 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-bool hasOneMatrix(const DatasetView& dataset, const std::string& camera)
+using Shots = std::vector<const DatasetShot*>; ///< of a camera
+
+bool hasOneMatrix(const Shots& shots)
 {
-  const std::vector<const DatasetShot*> shots = dataset.shotsOf(camera);
   const CameraRecord& first = shots.front()->camera;
   return std::all_of(shots.begin(), shots.end(),
     [&](const DatasetShot* shot)
@@ -36,11 +37,9 @@ Rigid3 betweenAt(const DatasetShot& from, const DatasetShot& to)
 }
 
 /// The second camera's axes from the first one's; none where they are not always the same.
-std::optional<Rigid3> between(const DatasetView& dataset, const std::string& first, const std::string& second)
+std::optional<Rigid3> between(const Shots& from, const Shots& to)
 {
   constexpr double rounding = 1e-9;
-  const std::vector<const DatasetShot*> from = dataset.shotsOf(first);
-  const std::vector<const DatasetShot*> to = dataset.shotsOf(second);
   if (from.size() != to.size())
   {
     return std::nullopt;
@@ -268,16 +267,18 @@ const SwitchOption& rigs()
 std::vector<Rig> rigsOf(const DatasetView& dataset)
 {
   std::vector<Rig> rigs;
+  std::vector<Shots> firsts; // of each rig's first camera
   for (const std::string& camera : dataset.cameras())
   {
-    if (dataset.shotsOf(camera).size() < 2 || !hasOneMatrix(dataset, camera))
+    const Shots shots = dataset.shotsOf(camera);
+    if (shots.size() < 2 || !hasOneMatrix(shots))
     {
       continue;
     }
     bool found = false;
     for (std::size_t i = 0; i < rigs.size() && !found; ++i)
     {
-      if (const std::optional<Rigid3> pose = between(dataset, rigs[i].cameras[0], camera))
+      if (const std::optional<Rigid3> pose = between(firsts[i], shots))
       {
         rigs[i].cameras.push_back(camera);
         rigs[i].fromFirst.push_back(*pose);
@@ -287,6 +288,7 @@ std::vector<Rig> rigsOf(const DatasetView& dataset)
     if (!found)
     {
       rigs.push_back({ { camera }, { Rigid3() } });
+      firsts.push_back(shots);
     }
   }
   rigs.erase(
@@ -306,17 +308,22 @@ void checkRigs(const DatasetView& dataset, const OptionValues& options, const st
     throw UsageError("rigs: no two cameras keep their places to each other through the frames, two at least");
   }
   const std::shared_ptr<const Views> views = viewsOf(dataset, options, PixelCentre::Half).front();
-  const auto prefix = [&](const std::string& camera) { return prefixOf(*views, *dataset.shotsOf(camera).front()); };
+  std::map<std::string, std::string> prefixes; // by camera
+  for (const std::string& camera : dataset.cameras())
+  {
+    prefixes[camera] = prefixOf(*views, *dataset.shotsOf(camera).front());
+  }
   for (const Rig& rig : all)
   {
     for (const std::string& camera : rig.cameras)
     {
-      for (const std::string& other : dataset.cameras())
+      const std::string& own = prefixes.at(camera);
+      for (const auto& [other, prefix] : prefixes)
       {
-        if (camera != other && prefix(other).find(prefix(camera)) != std::string::npos)
+        if (camera != other && prefix.find(own) != std::string::npos)
         {
-          throw UsageError("rigs: " + format + " looks for " + quotedText(prefix(camera)) +
-                           " anywhere in a picture's name, and it is in " + quotedText(prefix(other)) +
+          throw UsageError("rigs: " + format + " looks for " + quotedText(own) +
+                           " anywhere in a picture's name, and it is in " + quotedText(prefix) +
                            ", too; rename camera " + quoted(camera));
         }
       }

@@ -207,7 +207,7 @@ private:
       {
         std::string rows;
         std::size_t count = 0;
-        for (const TrackPoint& point : dataset.trackPoints())
+        for (const TrackPoint& point : trackPointsBut(dataset, movingObjects(dataset)))
         {
           if (point.isStatic)
           {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewPairs.h"
 
+#include "dgtkMovingObjects.h"
 #include "dgtkPortableMath.h"
 
 #include <Eigen/Geometry>
@@ -27,7 +28,7 @@ std::size_t samplesFor(std::size_t views)
 
 void ViewPairs::read() const
 {
-  const std::vector<TrackPoint> all = this->Dataset.trackPoints();
+  const std::vector<TrackPoint> all = trackPointsBut(this->Dataset, movingObjects(this->Dataset));
   for (const TrackPoint& point : all)
   {
     this->Points.push_back(point.x);

@@ -61,9 +61,12 @@ public:
       throw UsageError(
         "tum: ICL-NUIM's frames are numbered from 0, but there is frame " + std::to_string(dataset.frames().front()));
     }
-    if (!isIcl(options))
+    for (const int frame : isIcl(options) ? std::vector<int>() : dataset.frames())
     {
-      dataset.seconds(0);
+      if (std::abs(dataset.seconds(frame)) * 1e6 >= 9.2e18)
+      {
+        throw UsageError("tum: frame " + std::to_string(frame) + " has no time: microseconds have 63 bits");
+      }
     }
     requireEverywhere(dataset, exported::color().of(options), tumName, { "png" });
     requireEverywhere(dataset, exported::depth().of(options), tumName);

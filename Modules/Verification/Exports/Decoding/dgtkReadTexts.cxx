@@ -3,10 +3,12 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkFolder.h"
 #include "dgtkText.h"
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <sstream>
 
 namespace dgtk
@@ -140,6 +142,31 @@ double metresOf(const ExportedFrom& source)
     throw InputError(source.path(exportName), "nobody says how long the dataset's unit is");
   }
   return source.manifest().metresPerUnit;
+}
+
+std::vector<TrackPoint> trackPointsOf(const ExportedFrom& source)
+{
+  std::set<int> frames;
+  for (const ExportedName& picture : source.record().names)
+  {
+    frames.insert(picture.frame);
+  }
+  std::map<std::uint32_t, std::size_t> sights; // frames at which an object is there
+  if (Folder(source.dataset()).look(posesName) == EntryKind::File)
+  {
+    for (const PoseRecord& pose : readPoses(source.document(posesName)))
+    {
+      sights[pose.id] += pose.visible ? frames.count(pose.frame) : 0;
+    }
+  }
+  std::vector<TrackPoint> points = readTrackPoints(source.dataset() + '/' + trackPointsFile);
+  for (TrackPoint& point : points)
+  {
+    const auto found = sights.find(point.object);
+    const std::size_t there = found == sights.end() ? 0 : found->second;
+    point.isStatic = point.isStatic && (there == 0 || there == frames.size());
+  }
+  return points;
 }
 
 std::vector<const ExportedFile*> filesIn(

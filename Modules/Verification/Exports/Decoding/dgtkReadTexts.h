@@ -6,6 +6,8 @@
 
 #include "dgtkExportJudge.h"
 
+#include "dgtkTrackDocuments.h"
+
 #include <map>
 #include <string>
 #include <vector>
@@ -39,6 +41,8 @@ Eigen::Matrix3d rotationOf(const Eigen::Vector4d& q);
 
 /// Metres of a scene unit: as the export was asked for, or as the dataset says. Throws InputError for none.
 double metresOf(const ExportedFrom& source);
+/// The dataset's points of tracks; those on objects that only some frames of the export's pictures have are not static.
+std::vector<TrackPoint> trackPointsOf(const ExportedFrom& source);
 /// Files of an export below a folder with an extension.
 std::vector<const ExportedFile*> filesIn(
   const ExportedFrom& source, const std::string& folder, const std::string& extension);

@@ -5,7 +5,6 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkTrackDocuments.h"
 
 #include <array>
 #include <cmath>
@@ -307,7 +306,7 @@ public:
     const bool binary = !filesIn(judge.source(), folder, "bin").empty();
     (binary ? readBinary : readText)(judge.source().path(folder), this->Own);
     this->Extension = binary ? ".bin" : ".txt";
-    this->Tracks = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
+    this->Tracks = trackPointsOf(judge.source());
   }
 
   void judgeAll()

@@ -3,7 +3,6 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkTrackDocuments.h"
 
 #include <Eigen/Geometry>
 
@@ -127,7 +126,7 @@ void judgePairs(ExportJudge& judge, const std::string& file)
   const std::string path = judge.source().path(file);
   const std::vector<std::string> lines = allLines(path);
   const std::vector<ExportedName>& names = judge.source().record().names;
-  const std::vector<TrackPoint> points = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
+  const std::vector<TrackPoint> points = trackPointsOf(judge.source());
   judge.exact("pairs", "", file, "lines", double(lines.size()), double(2 * names.size() + 1));
   judge.holds("pairs", file, "views", numbersIn(path, lines, 0) == std::vector<double>{ double(names.size()) },
     lines.empty() ? "" : lines[0], std::to_string(names.size()));

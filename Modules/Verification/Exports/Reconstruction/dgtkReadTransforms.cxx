@@ -3,8 +3,6 @@
 #include "dgtkJsonFile.h"
 #include "dgtkReadTexts.h"
 
-#include "dgtkTrackDocuments.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -101,7 +99,7 @@ void judgePoints(ExportJudge& judge, const std::string& name)
 {
   const std::string bytes = readFile(judge.source().path(name));
   const std::size_t head = std::min(bytes.find("end_header\n"), bytes.size()) + 11;
-  std::vector<TrackPoint> points = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
+  std::vector<TrackPoint> points = trackPointsOf(judge.source());
   points.erase(
     std::remove_if(points.begin(), points.end(), [](const TrackPoint& one) { return !one.isStatic; }), points.end());
   constexpr std::size_t row = 15; // three float32, three bytes
