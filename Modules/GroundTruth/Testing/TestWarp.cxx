@@ -213,9 +213,9 @@ TEST(Warp, PanesAreLaidFarToNear)
 
 namespace
 {
-/// A plane through (0, 0, 5) of one colour, red 200, that a normal and an opacity of a half belong to; farther by
-/// `behind` along the rays.
-WarpSource veil(const Eigen::Vector3d& normal, double behind = 0)
+/// A plane through (0, 0, 5) of one colour and an opacity of a half; farther by `behind` along the rays.
+WarpSource veil(
+  const Eigen::Vector3d& normal, double behind = 0, const std::array<std::uint8_t, 4>& rgba = { 200, 0, 0, 128 })
 {
   return [=](const std::function<void(int, int, const WarpSample&)>& visit)
   {
@@ -224,7 +224,7 @@ WarpSource veil(const Eigen::Vector3d& normal, double behind = 0)
       {
         const Eigen::Vector3d ray((x + 0.5 - width / 2.0) / focal, (y + 0.5 - height / 2.0) / focal, 1);
         const double depth = 5 * normal.z() / normal.dot(ray);
-        visit(x, y, { { 200, 0, 0, 128 }, depth + behind, splatIndex(depth * ray.norm(), normal, 0.1, 1000) });
+        visit(x, y, { rgba, depth + behind, splatIndex(depth * ray.norm(), normal, 0.1, 1000) });
       });
   };
 }
@@ -268,6 +268,34 @@ TEST(Warp, SheetsThatOnePixelSeesAreTwoHoweverNear)
     {
       const View to = viewAt({ 0, 0, forward });
       EXPECT_EQ(others(warpLayeredDepth(sheets, viewAt({ 0, 0, 0 }), to), 150), 0) << apart << ", " << forward;
+    }
+  }
+}
+
+// Whichever is in front: of samples of two pixels, in the order of their depths, those of one sheet may lie between
+// those of the other.
+TEST(Warp, CloseVeilsOfDifferentSlopesAreLaidOnceEach)
+{
+  const auto turned = [](double degrees)
+  {
+    const double angle = degrees * std::acos(-1.0) / 180;
+    return Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
+  };
+  for (const double behind : { 0.05, 0.2 })
+  {
+    const WarpSource sheets = both(veil(turned(40)), veil(turned(44), behind, { 0, 0, 200, 128 }));
+    for (const Eigen::Vector3d& eye :
+      { Eigen::Vector3d(0, 0, 0.9), Eigen::Vector3d(-0.4, 0, 1), Eigen::Vector3d(0.3, 0, 2) })
+    {
+      const WarpedImage image = warpLayeredDepth(sheets, viewAt({ 0, 0, 0 }), viewAt(eye));
+      int wrong = 0;
+      for (int i = 3 * width; i < (height - 3) * width; ++i)
+      {
+        const std::uint8_t* const rgb = image.rgb.data() + 3 * i;
+        const int more = std::max(rgb[0], rgb[2]);
+        wrong += more > 0 && (std::abs(more - 100) > 1 || std::abs(rgb[0] + rgb[2] - 150) > 2) ? 1 : 0;
+      }
+      EXPECT_LE(wrong, 6) << behind << ", " << eye.transpose();
     }
   }
 }
