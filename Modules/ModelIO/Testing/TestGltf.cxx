@@ -300,6 +300,50 @@ TEST(Gltf, AnAnimationOfOneValueHolds)
   EXPECT_FALSE(dgtk::AssimpDeformation(std::make_shared<Scene>(), {}).holds(0)) << "there is none";
 }
 
+TEST(Gltf, WhatHoldsIsNotRounded)
+{
+  using namespace dgtk::import;
+  for (const Interpolation interpolation : { Interpolation::Linear, Interpolation::Cubic })
+  {
+    auto scene = std::make_shared<Scene>();
+    scene->nodes = { { "root", noIndex, { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }, { 0 } } };
+    scene->meshes.resize(1);
+    scene->meshes[0].positions = { { 0.3F, 0.7F, 1.1F } };
+    scene->meshes[0].targets.resize(1);
+    scene->meshes[0].targets[0].positions = { { 52.2F, -90.9F, 171.7F } };
+    scene->animations.resize(1);
+    Animation& animation = scene->animations[0];
+    animation.duration = 1;
+    animation.channels.resize(1);
+    animation.channels[0].node = 0;
+    const bool isCubic = interpolation == Interpolation::Cubic;
+    const auto fill = [&](auto& keys, auto value)
+    {
+      keys.times = { 0, 1 };
+      keys.values = { value, value };
+      keys.interpolation = interpolation;
+      keys.in.resize(isCubic ? 2 : 0);
+      keys.out.resize(isCubic ? 2 : 0);
+    };
+    fill(animation.channels[0].rotation, std::array<double, 4>{ 0.927, 0.1, 0.2, 0.3 });
+    fill(animation.channels[0].translation, std::array<double, 3>{ 0.1, 0.7, 0.123 });
+    fill(animation.channels[0].scale, std::array<double, 3>{ 1.1, 0.7, 1.3 });
+    animation.morphs.resize(1);
+    animation.morphs[0] = { 0, { 0, 1 }, 1, { 0.3, 0.3 }, interpolation, std::vector<double>(isCubic ? 2 : 0),
+      std::vector<double>(isCubic ? 2 : 0) };
+    const dgtk::AssimpDeformation deformation(scene, { { 0, 0, { 0 } } });
+    EXPECT_TRUE(deformation.holds(0));
+    std::vector<Eigen::Vector3d> first;
+    std::vector<Eigen::Vector3d> later;
+    deformation.positionsAt(0, 0, first);
+    for (double frame = 0.5; frame < 30; frame += 0.7)
+    {
+      deformation.positionsAt(0, frame, later);
+      EXPECT_EQ(later, first) << frame;
+    }
+  }
+}
+
 TEST(Gltf, WeightsOfJointsAreSharesOfTheirSum)
 {
   const dgtk::import::Matrix still = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
