@@ -112,7 +112,8 @@ void requireReplacing(const std::string& folder, const RunParts& run)
   for (const std::string& name : heldScenes(folder))
   {
     const bool isReplaced = std::find(run.scenes.begin(), run.scenes.end(), name) != run.scenes.end();
-    if (!isReplaced && std::filesystem::exists(folder + '/' + name)) // not of a scene that could not be rendered
+    std::error_code code;
+    if (!isReplaced && std::filesystem::exists(folder + '/' + name, code)) // not of a scene that could not be rendered
     {
       throw UsageError(folder + ": holds a dataset of another run, " + dgtk::quoted(name) +
                        ", which no scene of this one replaces; remove it, or name another folder");
