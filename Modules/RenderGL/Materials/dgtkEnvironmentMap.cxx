@@ -97,7 +97,8 @@ void EnvironmentMap::set(const std::shared_ptr<const EnvironmentState>& environm
   {
     return;
   }
-  const EnvironmentLight light = environmentLight(*environment->image, environment->intensity);
+  const std::shared_ptr<const EnvironmentLight> known = environmentLight(environment);
+  const EnvironmentLight& light = *known;
   for (std::size_t i = 0; i < 27; ++i)
   {
     this->Irradiance[i] = float(light.irradiance[i / 3][Eigen::Index(i % 3)]);
