@@ -20,9 +20,10 @@ namespace
 constexpr int samplesOfLobe = 128;
 constexpr double ln2 = 0.693147180559945309417;
 
+/// x may be as much as a width outside of the picture, which goes around.
 Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)
 {
-  x = (x % width + width) % width;
+  x += x < 0 ? width : x < width ? 0 : -width;
   y = std::clamp(y, 0, height - 1);
   return Eigen::Vector3f(rgb + (std::size_t(y) * width + x) * 3);
 }

@@ -26,7 +26,6 @@ option(DGTK_TEST_EACH_CASE "Each GoogleTest case is a test of CTest: slower, for
 function(dgtk_add_tests module)
   cmake_parse_arguments(PARSE_ARGV 1 _t "" "TIMEOUT;SHARDS" "LINK")
   add_executable(Test${module} ${_t_UNPARSED_ARGUMENTS})
-  target_compile_options(Test${module} PRIVATE $<$<CONFIG:Release>:-Og>) # they are compiled longer than they run
   target_link_libraries(Test${module} PRIVATE DGTk::${module} dgtk_test_support GTest::gmock GTest::gtest_main ${_t_LINK})
   if(NOT _t_TIMEOUT)
     set(_t_TIMEOUT 300)
