@@ -167,14 +167,14 @@ void EditorTest::init()
   QSettings().clear();
   const QString function = QTest::currentTestFunction();
   const bool makesNone = function == "pictures" && !qEnvironmentVariableIsSet("DGTK_EDITOR_PICTURES");
-  if (makesNone || this->withoutWindow().contains(function))
+  if (makesNone || !this->hasWindow(function))
   {
     return;
   }
   this->Window = std::make_unique<dgtk::MainWindow>();
-  if (const QSize size = this->windowSize(); size.isValid())
+  if (function != "pictures") // which are the editor's as it opens
   {
-    this->Window->resize(size);
+    this->Window->resize(this->windowSize(function));
   }
   this->Window->show();
   activate(*this->Window);

@@ -34,13 +34,15 @@ public:
 private slots:
   void initTestCase();
   void init();
+
+protected slots:
   void cleanup();
 
 protected:
-  /// Of the window of each case, where it may be smaller than the editor opens it: half of the time is for pixels.
-  virtual QSize windowSize() const { return {}; }
-  /// Cases that open windows themselves, or none.
-  virtual QStringList withoutWindow() const { return {}; }
+  /// Of the window of each case: small, as half of the time is for pixels.
+  virtual QSize windowSize(const QString& /*testCase*/) const { return { 1000, 720 }; }
+  /// Not those that open windows themselves, or none.
+  virtual bool hasWindow(const QString& /*testCase*/) const { return true; }
   QAction* action(const char* name) const;
   QLineEdit* field(const char* name) const;
   void type(const char* name, const QString& text) const;

@@ -13,7 +13,7 @@ class TestEditorExport : public EditorTest
   Q_OBJECT
 
 protected:
-  QSize windowSize() const override { return { 860, 620 }; }
+  QSize windowSize(const QString& /*testCase*/) const override { return { 860, 620 }; }
 
 private slots:
   void anExportHasTheBytesOfTheCommandLine();

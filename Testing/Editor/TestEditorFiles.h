@@ -17,8 +17,7 @@ class TestEditorFiles : public EditorTest
   Q_OBJECT
 
 protected:
-  QSize windowSize() const override { return { 1000, 720 }; }
-  QStringList withoutWindow() const override { return { "filesOfTheCommandLineOpen" }; }
+  bool hasWindow(const QString& testCase) const override { return testCase != "filesOfTheCommandLineOpen"; }
 
 private slots:
   void samplesAreImportedOrRefused();

@@ -217,7 +217,7 @@ void TestEditorFiles::exportsForPovRay()
   }
   // Of several cameras the one that is selected.
   answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   this->select("right");
   this->inFileDialog("exportPov", [&](QFileDialog& dialog) { name(dialog, this->path("right")); });
   const QByteArray written = contentsOf(this->path("right.pov"));
@@ -255,13 +255,13 @@ void TestEditorFiles::recentFilesOpenAgain()
 
 void TestEditorFiles::anyNameIsShownAsItIs()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const QString scene = this->path("R&D %2.json");
   QVERIFY(this->Window->saveFile(scene));
   QVERIFY(this->Window->openFile(scene));
   auto* log = this->Window->findChild<QPlainTextEdit*>("log");
   QVERIFY2(
-    log->toPlainText().contains("Opened R&D %2.json: 16 objects, 3 lights, 2 cameras"), qPrintable(log->toPlainText()));
+    log->toPlainText().contains("Opened R&D %2.json: 5 objects, 3 lights, 2 cameras"), qPrintable(log->toPlainText()));
   auto* recent = this->Window->findChild<QMenu*>("recent");
   QVERIFY(recent->actions().first()->text().contains("R&&D %2.json"));
   const QString crate = this->path("R&D.ac");

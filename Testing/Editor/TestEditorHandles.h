@@ -23,9 +23,6 @@ class TestEditorHandles : public EditorTest
 {
   Q_OBJECT
 
-protected:
-  QSize windowSize() const override { return { 1000, 720 }; }
-
 private slots:
   void arrowsMove();
   void squaresAndKeysKeepToPlanes();

@@ -305,7 +305,9 @@ void TestEditorLook::theUpAxisTurnsTheViews()
   // As if the scene had always been so.
   const QString path = this->path("zUp.json");
   this->Window->document().saveAs(path.toStdString());
+  const QSize size = this->Window->size();
   this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->resize(size);
   this->Window->show();
   QVERIFY(this->Window->openFile(path));
   this->action("frameAll")->trigger();

@@ -54,7 +54,7 @@ void TestEditorTruth::clickMatch(QWidget* dialog, int side, const QPointF& image
 void TestEditorTruth::matchesAreTheDatasets()
 {
   this->render("correspondence", { "--pairs", "left:right,right:left" });
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   QWidget* const dialog = this->openMatches();
   const QString cameras[2] = { "left", "right" };
   int seen = 0;
@@ -101,7 +101,7 @@ void TestEditorTruth::matchesAreTheDatasets()
 
 void TestEditorTruth::pairsAreThoseOfTheCommandLine()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   QWidget* const dialog = this->openMatches();
   auto* add = dialog->findChild<QPushButton*>("addPair");
   auto* table = dialog->findChild<QTableWidget*>("matchTable");
@@ -127,7 +127,7 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
   QVERIFY(call("savePairs", list));
   QProcess program;
   program.start(QString::fromLocal8Bit(qgetenv("DGTK")),
-    { "correspond", demo(), "--from", "left", "--to", "right", "--points", list });
+    { "correspond", this->copyOfDemo(), "--from", "left", "--to", "right", "--points", list });
   QVERIFY(program.waitForFinished(longestRun));
   QCOMPARE(program.readAllStandardOutput(), QByteArray::fromStdString(dgtk::readFile(list.toStdString())));
 
@@ -168,10 +168,10 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
   table->selectRow(0);
   QTest::keyClick(table, Qt::Key_Delete);
   answer<QMessageBox>("unsavedPairsBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
-  QVERIFY(!this->Window->openFile(demo()));
+  QVERIFY(!this->Window->openFile(this->copyOfDemo()));
   QCOMPARE(table->rowCount(), 2);
   answer<QMessageBox>("unsavedPairsBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   QCOMPARE(table->rowCount(), 0);
 }
 
@@ -207,7 +207,7 @@ void TestEditorTruth::manyPairsOpenAtOnce()
 
 void TestEditorTruth::panesZoomAndPan()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   QWidget* const dialog = this->openMatches();
   auto* pane = dialog->findChild<QWidget*>("pane.0");
   const QPoint middle = pane->rect().center();

@@ -154,6 +154,7 @@ void TestEditorMenus::tabStaysOnTheScreen()
 void TestEditorMenus::prepareFor(const QAction& item) const
 {
   const QString name = item.objectName();
+  this->Window->setUpdatesEnabled(false); // what is prepared is drawn once
   QVERIFY(this->Window->openFile(this->fewObjects()));
   this->select("tree");
   this->type("position.1", "0.25");
@@ -187,6 +188,7 @@ void TestEditorMenus::prepareFor(const QAction& item) const
     QTest::keyClick(this->Window->findChild<QWidget*>("view.3"), Qt::Key_Plus);
   }
   this->Window->findChild<QWidget*>("view.3")->setFocus();
+  this->Window->setUpdatesEnabled(true);
 }
 
 /// Each item of each menu changes the scene, the window, or opens another one.

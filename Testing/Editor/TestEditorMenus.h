@@ -13,9 +13,6 @@ class TestEditorMenus : public EditorTest
 {
   Q_OBJECT
 
-protected:
-  QSize windowSize() const override { return { 1000, 720 }; }
-
 private slots:
   void everyMenuItemWorks();
   void lettersOfMenusDiffer();

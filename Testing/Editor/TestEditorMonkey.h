@@ -18,7 +18,7 @@ class TestEditorMonkey : public EditorTest
   Q_OBJECT
 
 protected:
-  QSize windowSize() const override { return { 900, 640 }; }
+  QSize windowSize(const QString& /*testCase*/) const override { return { 900, 640 }; }
 
 private slots:
   void randomEventsDoNoHarm();

@@ -16,8 +16,7 @@ class TestEditorRuns : public EditorTest
   Q_OBJECT
 
 protected:
-  QSize windowSize() const override { return { 1000, 720 }; }
-  QStringList withoutWindow() const override { return { "aRunOutlivesItsEditor" }; }
+  bool hasWindow(const QString& testCase) const override { return testCase != "aRunOutlivesItsEditor"; }
 
 private slots:
   void quittingAsks();

@@ -15,7 +15,7 @@ class TestEditorSamples : public EditorTest
   Q_OBJECT
 
 protected:
-  QSize windowSize() const override { return { 860, 620 }; }
+  QSize windowSize(const QString& /*testCase*/) const override { return { 860, 620 }; }
 
 private slots:
   void samplesAreThoseOfTheCommandLine();

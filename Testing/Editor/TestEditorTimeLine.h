@@ -11,6 +11,10 @@ class TestEditorTimeLine : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  /// The time line needs room for its frames.
+  QSize windowSize(const QString& /*testCase*/) const override { return { 1280, 720 }; }
+
 private slots:
   void keysOfARowAreDragged();
   void keysOfTheSceneAreDragged();

@@ -34,8 +34,8 @@ constexpr int turns = 20;
 void TestEditorTruth::render(const QString& layers, const QStringList& more) const
 {
   const QString program = QString::fromLocal8Bit(qgetenv("DGTK"));
-  QStringList words{ "render", demo(), "-o", this->path("out"), "--layers", layers, "--visibility", "ray", "--frames",
-    "0", "--quiet", "--replace" };
+  QStringList words{ "render", this->copyOfDemo(), "-o", this->path("out"), "--layers", layers, "--visibility", "ray",
+    "--frames", "0", "--quiet", "--replace" };
   QCOMPARE(QProcess::execute(program, words + more), 0);
 }
 
@@ -79,7 +79,7 @@ void TestEditorTruth::valuesAreTheDatasets()
   this->render("depth,triangles", { "--cameras", "left", "--triangles-format", "npy" });
   const dgtk::ImageData depth = dgtk::readLayerFile(this->Folder.path("out/left/depth/000000.npy"));
   const dgtk::ImageData triangles = dgtk::readLayerFile(this->Folder.path("out/left/triangles/000000.npy"));
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   this->select("left");
   this->action("preview")->trigger();
   this->action("show.depth")->trigger();
@@ -322,7 +322,8 @@ void TestEditorTruth::nothingWaitsForPictures()
 
 void TestEditorTruth::theSceneMayChangeMeanwhile()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(
+    this->partOfDemo("changing.json", { "terrain", "house", "tree", "vase", "ball", "crate one", "crate two" })));
   dgtk::SceneDocument& document = this->Window->document();
   const std::string first = document.json();
   this->action("correspondence")->trigger();

@@ -14,6 +14,14 @@ class TestEditorTruth : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  /// Some look at squares of many pixels, or between objects.
+  QSize windowSize(const QString& testCase) const override
+  {
+    const bool isLarge = testCase == "viewsHaveTheRenderersColours" || testCase == "clicksGoThroughThePicture";
+    return isLarge ? QSize(1280, 860) : EditorTest::windowSize(testCase);
+  }
+
 private slots:
   void layersReplaceColourAndFollowTheView();
   void valuesAreTheDatasets();

@@ -55,7 +55,7 @@ void TestEditorTruth::selectedCamerasAreMatched()
 
 void TestEditorTruth::pairsAreUndone()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   QWidget* const dialog = this->openMatches();
   auto* table = dialog->findChild<QTableWidget*>("matchTable");
   auto* add = dialog->findChild<QPushButton*>("addPair");

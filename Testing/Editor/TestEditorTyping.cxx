@@ -110,30 +110,30 @@ void TestEditorTyping::whatIsBeingTypedIsSaved()
 
 void TestEditorTyping::whatIsBeingTypedIsKept()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   dgtk::SceneDocument& document = this->Window->document();
   this->select("tree");
   this->typeOnly("position.0", "12.5");
-  document.editItem("another change", { SceneItem::Kind::Object, 3 },
-    [](dgtk::SceneDescription& scene) { scene.objects[3].position.value.y() = 2; });
+  document.editItem("another change", { SceneItem::Kind::Object, 2 },
+    [](dgtk::SceneDescription& scene) { scene.objects[2].position.value.y() = 2; });
   QCOMPARE(this->field("position.0")->text(), QString("12.5"));
   QCOMPARE(this->field("position.1")->text(), QString("2"));
   QTest::keyClick(this->field("position.0"), Qt::Key_Return);
-  QCOMPARE(document.scene().objects[3].position.value, Eigen::Vector3d(12.5, 2, -3.4));
+  QCOMPARE(document.scene().objects[2].position.value, Eigen::Vector3d(12.5, 2, -3.4));
   this->typeOnly("class", "oak");
   document.undo();
   QCOMPARE(this->field("class")->text(), QString("oak"));
   QCOMPARE(this->field("position.0")->text(), QString("4.2"));
   this->action("undo")->trigger();
-  QVERIFY(document.scene().objects[3].className != "oak");
+  QVERIFY(document.scene().objects[2].className != "oak");
   QVERIFY(this->field("class")->text() != "oak");
 }
 
 void TestEditorTyping::quaternionsAreTypedAsOne()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   dgtk::SceneDocument& document = this->Window->document();
-  const auto rotation = [&] { return document.scene().objects[3].orientation.value; };
+  const auto rotation = [&] { return document.scene().objects[2].orientation.value; };
   this->select("tree");
   const dgtk::Quaternion before = rotation();
   this->typeOnly("orientation.0", "0.7071");
@@ -159,7 +159,7 @@ void TestEditorTyping::quaternionsAreTypedAsOne()
 
 void TestEditorTyping::aRefusalComesOnce()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   this->select("tree");
   int boxes = 0;
   QTimer closer;
@@ -299,7 +299,7 @@ void TestEditorTyping::parametersOfAModelAreTyped()
 /// What a layer needs is asked in the window, and what no camera has is not offered.
 void TestEditorTyping::everyNumberIsOfItsOwnProperty()
 {
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   dgtk::SceneDocument& document = this->Window->document();
   struct Row
   {
@@ -317,8 +317,8 @@ void TestEditorTyping::everyNumberIsOfItsOwnProperty()
     { "right", "lookAt.1", 1.5, [](const auto& s) { return s.cameras[1].lookAt.value.y(); } },
     { "right", "lookAt.2", -1, [](const auto& s) { return s.cameras[1].lookAt.value.z(); } },
     { "right", "up.0", 0.125, [](const auto& s) { return s.cameras[1].up.value.x(); } },
-    { "tree", "position.2", -4, [](const auto& s) { return s.objects[3].position.value.z(); } },
-    { "tree", "scale.1", 1.25, [](const auto& s) { return s.objects[3].scale.value.y(); } },
+    { "tree", "position.2", -4, [](const auto& s) { return s.objects[2].position.value.z(); } },
+    { "tree", "scale.1", 1.25, [](const auto& s) { return s.objects[2].scale.value.y(); } },
     { "spot", "position.0", -1, [](const auto& s) { return s.lights[2].position.value.x(); } },
     { "spot", "target.1", 0.5, [](const auto& s) { return s.lights[2].target.value.y(); } },
     { "spot", "intensity.0", 2, [](const auto& s) { return s.lights[2].intensity.value; } },

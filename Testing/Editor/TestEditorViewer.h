@@ -10,6 +10,11 @@
 
 class QMainWindow;
 
+namespace dgtk
+{
+class DatasetViewer;
+}
+
 /// A motion of the mouse that arrives at once, wherever the display's own pointer is.
 inline void moveMouse(QWidget* widget, const QPoint& at, Qt::MouseButtons buttons = Qt::NoButton)
 {
@@ -25,8 +30,17 @@ class TestEditorViewer : public EditorTest
 {
   Q_OBJECT
 
+public:
+  TestEditorViewer();
+  ~TestEditorViewer() override;
+
+protected slots:
+  void cleanup();
+
 protected:
-  QSize windowSize() const override { return { 1000, 720 }; }
+  QSize windowSize(const QString& /*testCase*/) const override { return { 860, 620 }; }
+  /// The viewer needs no editor.
+  bool hasWindow(const QString& testCase) const override;
 
 private slots:
   void opensByFolderManifestAndDrop();
@@ -57,11 +71,13 @@ private slots:
   void pictures();
 
 private:
-  /// A small dataset of the demo scene, rendered once.
+  /// Some of the demo's objects, of which one turns.
+  QString scene() const;
+  /// A small dataset of it, rendered once.
   QString dataset();
   /// Another one, with what is no picture: boxes, masks, points, calibration.
   QString richDataset();
-  /// Opens it in a window of its own and waits for its pictures.
+  /// Opens it in a window of its own, by the editor where there is one, and waits for its pictures.
   QMainWindow* open(const QString& folder);
   /// The window that is open, with its pictures; null for none.
   QMainWindow* viewer() const;
@@ -73,6 +89,7 @@ private:
   /// Brings the crosshair to a pixel by keys.
   void pointAt(QMainWindow* viewer, int x, int y) const;
 
+  std::unique_ptr<dgtk::DatasetViewer> Alone;
   QString Rendered;
   QString RenderedRich;
 };

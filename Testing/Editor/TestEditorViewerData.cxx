@@ -162,7 +162,7 @@ QString TestEditorViewer::richDataset()
   if (this->RenderedRich.isEmpty())
   {
     const QString folder = this->path("rich");
-    const QStringList words{ "render", demo(), "-o", folder, "--layers",
+    const QStringList words{ "render", this->scene(), "-o", folder, "--layers",
       "color,objects,boxes,amodal,points,calibration", "--size", QString("%1x%2").arg(width).arg(height), "--frames",
       "0:1", "--quiet" };
     const int status = QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words);

@@ -2,6 +2,8 @@
 #include "TestEditorSupport.h"
 #include "TestEditorViewer.h"
 
+#include "dgtkDatasetViewer.h"
+
 #include <QAction>
 #include <QComboBox>
 #include <QLabel>
@@ -95,12 +97,17 @@ QPoint pixelOf(const QMainWindow* viewer)
   return match.hasMatch() ? QPoint(match.captured(1).toInt(), match.captured(2).toInt()) : QPoint(-1, -1);
 }
 
+QString TestEditorViewer::scene() const
+{
+  return this->partOfDemo("scene.json", { "terrain", "house", "windmill", "tree", "vase", "ball" });
+}
+
 QString TestEditorViewer::dataset()
 {
   if (this->Rendered.isEmpty())
   {
     const QString folder = this->path("dataset");
-    const QStringList words{ "render", demo(), "-o", folder, "--layers",
+    const QStringList words{ "render", this->scene(), "-o", folder, "--layers",
       "color,depth,objects,normal,position,distance,flow_forward,ldi,correspondence", "--size", "64x48", "--quiet" };
     const int status = QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words);
     this->Rendered = status == 0 ? folder : QString();
@@ -108,9 +115,34 @@ QString TestEditorViewer::dataset()
   return this->Rendered;
 }
 
+TestEditorViewer::TestEditorViewer() = default;
+TestEditorViewer::~TestEditorViewer() = default;
+
+bool TestEditorViewer::hasWindow(const QString& testCase) const
+{
+  const QStringList besideAnEditor{ "opensByFolderManifestAndDrop", "brokenDatasetsAreRefused",
+    "theRenderDialogOpensItsResult", "theViewerOpensWhereItWas", "randomEventsDoNoHarm" };
+  return besideAnEditor.contains(testCase);
+}
+
+void TestEditorViewer::cleanup()
+{
+  this->Alone.reset();
+  EditorTest::cleanup();
+}
+
 QMainWindow* TestEditorViewer::open(const QString& folder)
 {
-  this->Window->openFile(folder);
+  if (this->Window != nullptr)
+  {
+    this->Window->openFile(folder);
+  }
+  else
+  {
+    this->Alone = std::make_unique<dgtk::DatasetViewer>();
+    this->Alone->show();
+    this->Alone->openFolder(folder);
+  }
   return this->viewer();
 }
 

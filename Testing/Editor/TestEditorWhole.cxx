@@ -273,7 +273,7 @@ void TestEditorWhole::viewsMoveByKeys()
 void TestEditorWhole::aPreviewHasTheCamerasPose()
 {
   using V = Eigen::Vector3d;
-  QVERIFY(this->Window->openFile(demo()));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const auto posed = [](const char* name, const V& right, const V& down, const V& forward)
   {
     Eigen::Matrix3d axes;

@@ -9,9 +9,6 @@ class TestEditorWhole : public EditorTest
 {
   Q_OBJECT
 
-protected:
-  QSize windowSize() const override { return { 1000, 720 }; }
-
 private slots:
   void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();
