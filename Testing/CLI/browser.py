@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A headless Chromium, driven through a pipe: pages from the disk, what they log, what they ask for, keys and pictures of them."""
 import base64
+import contextlib
 import json
 import os
 import shutil
@@ -37,13 +38,25 @@ class Browser:
         os.close(read_commands)
         os.close(write_answers)
         self.last, self.rest, self.session = 0, b"", None
+        self._show(next(one for one in self.ask("Target.getTargets")["targetInfos"] if one["type"] == "page")["targetId"], width, height, dark)
+
+    def _show(self, target, width, height, dark):
         self.requests, self.problems, self.events = [], [], set()
-        target = next(one for one in self.ask("Target.getTargets")["targetInfos"] if one["type"] == "page")["targetId"]
         self.session = self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Network", "Log"):
             self.ask(domain + ".enable")
         self.resize(width, height)
         self.ask("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+
+    @contextlib.contextmanager
+    def page(self, width=1400, height=900, dark=False):
+        """Another page, which shares nothing with those before but the process: that takes longer to start than most pages to show."""
+        self.session = None
+        context = self.ask("Target.createBrowserContext")["browserContextId"]
+        self._show(self.ask("Target.createTarget", url="about:blank", browserContextId=context)["targetId"], width, height, dark)
+        yield self
+        self.session = None
+        self.ask("Target.disposeBrowserContext", browserContextId=context)
 
     def __enter__(self):
         return self
@@ -69,6 +82,8 @@ class Browser:
         return json.loads(text)
 
     def _note(self, message):
+        if message.get("sessionId") != self.session:
+            return  # of a page before
         method, values = message.get("method"), message.get("params", {})
         self.events.add(method)
         if method == "Network.requestWillBeSent":

@@ -79,3 +79,7 @@ class ManyCase(Case):
         done = self.ran(*arguments, timeout=timeout)
         self.assertEqual(done.returncode, status, f"dgtk {' '.join(map(str, arguments))}\n{done.stdout}\n{done.stderr}")
         return done
+
+    def alone(self, *arguments):
+        """As dgtk(), by a process of its own, where what must not depend on it is compared."""
+        return super().dgtk(*arguments)

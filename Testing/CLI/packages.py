@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the cases of Debian packages share: making them of the build, and asking them."""
+import functools
 import glob
 import os
 import re
@@ -20,19 +21,23 @@ def run(*words, **options):
 def make(folder, versions=True, **settings):
     """The packages of the build, made in a folder, with settings of CPack: name -> path. Without versions, libraries ask for none."""
     os.makedirs(os.path.join(folder, "bin"))
+    scripts = {"words": 'shift 2\nexec env "$@"\n'}  # as CPack's `cmake -E env WORDS`, one a file, which takes longer than all WORDS
     if not versions:
-        stand_in = os.path.join(folder, "bin", "dpkg-shlibdeps")
-        with open(stand_in, "w", encoding="utf-8") as file:
-            file.write(f'#!/bin/sh\nexec /usr/bin/python3 "{os.path.dirname(__file__)}/dependencies.py" "$@"\n')
-        os.chmod(stand_in, 0o755)
+        own = "/usr/bin/dpkg-shlibdeps"
+        scripts["dpkg-shlibdeps"] = f'[ $# -gt 1 ] || exec {own} "$@"\nexec /usr/bin/python3 "{os.path.dirname(__file__)}/dependencies.py" "$@"\n'
+    for name, script in scripts.items():
+        with open(os.path.join(folder, "bin", name), "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\n" + script)
+        os.chmod(file.name, 0o755)
     config = os.path.join(folder, "config.cmake")
     with open(config, "w", encoding="utf-8") as file:
-        file.write(f'include("{BUILD}/CPackConfig.cmake")\n')
+        file.write(f'include("{BUILD}/CPackConfig.cmake")\nset(CMAKE_COMMAND "{folder}/bin/words")\n')
         file.writelines(f'set(CPACK_{name} "{value}")\n' for name, value in settings.items())
     run("cpack", "--config", config, "-B", folder, env={**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}"})
     return {os.path.basename(path).split("_")[0]: path for path in glob.glob(os.path.join(folder, "*.deb"))}
 
 
+@functools.cache
 def files(package):
     """Paths, without the folders, from the root on, of what a package holds: path -> (mode, owner)."""
     found = {}
@@ -48,8 +53,13 @@ def unpacked_size(package):
     return sum(int(line.split()[2]) for line in run("dpkg-deb", "--contents", package).splitlines() if line.startswith("-"))
 
 
+@functools.cache
+def fields(package):
+    return dict(re.findall(r"(?ms)^(\S+): (.*?)$(?=\n\S|\n?\Z)", run("dpkg-deb", "--field", package)))
+
+
 def field(package, name):
-    return run("dpkg-deb", "--field", package, name).strip()
+    return fields(package)[name].strip()
 
 
 def dependencies(package, kind="Depends"):

@@ -9,7 +9,8 @@ import subprocess
 import time
 import unittest
 
-from harness import DGTK, Case, main
+from harness import DGTK, main
+from many_runs import ManyCase
 
 SOURCE = os.environ["DGTK_SOURCE"]
 DEMO = os.path.join(SOURCE, "Data", "Scenes", "demo.json")
@@ -27,6 +28,7 @@ ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 JobAcctGatherType=jobacct_gather/none
 AccountingStorageType=accounting_storage/none
+SchedulerParameters=batch_sched_delay=0
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 SlurmdParameters=config_overrides
@@ -36,7 +38,7 @@ StateSaveLocation={folder}/state
 SlurmdSpoolDir={folder}/spool
 SlurmctldPidFile={folder}/slurmctld.pid
 SlurmdPidFile={folder}/slurmd.pid
-NodeName={host} NodeAddr=127.0.0.1 CPUs=4 State=UNKNOWN
+NodeName={host} NodeAddr=127.0.0.1 CPUs=16 State=UNKNOWN
 PartitionName=p Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
@@ -51,7 +53,7 @@ def recipe(name):
     return os.path.join(SOURCE, "Utilities", "Cluster", name)
 
 
-class Cluster(Case):
+class Cluster(ManyCase):
     def setUp(self):
         super().setUp()
         self.whole = self.path("whole")

@@ -8,10 +8,11 @@ import shutil
 import subprocess
 
 from harness import DGTK, SCENES, SOURCE, Case, copy_scenes, digests, load_json, main
+from many_runs import ManyCase
 from pictures import read_png
 
 
-class Engines(Case):
+class Engines(ManyCase):
     def render(self, name, scene, *options, layers="depth,objects,triangles"):
         self.dgtk("render", os.path.join(SCENES, scene), "-o", self.path(name), "--quiet", "--layers", layers, *options)
         return self.path(name)

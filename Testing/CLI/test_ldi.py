@@ -11,7 +11,8 @@ import zlib
 
 import numpy
 
-from harness import DGTK, SCENES, Case, copy_scenes, load_json, main
+from harness import DGTK, SCENES, copy_scenes, load_json, main
+from many_runs import ManyCase
 from pictures import read_png
 
 RECORD = numpy.dtype([("rgba", "u1", 4), ("depth", "<f8"), ("splat", "<u4")])
@@ -100,9 +101,9 @@ def turned(camera, degrees, depth):
             "width": camera["width"], "height": camera["height"]}
 
 
-class Layers(Case):
-    def render(self, scene, name, *options, layers="color,depth,objects,parts,triangles,ldi"):
-        self.dgtk("render", os.path.join(SCENES, scene), "-o", self.path(name), "--quiet", "--layers", layers, *options)
+class Layers(ManyCase):
+    def render(self, scene, name, *options, layers="color,depth,objects,parts,triangles,ldi", run=None):
+        (run or self.dgtk)("render", os.path.join(SCENES, scene), "-o", self.path(name), "--quiet", "--layers", layers, *options)
         return self.path(name)
 
     def check_first(self, folder, frame):
@@ -173,7 +174,7 @@ class Layers(Case):
         """Of images of several canonical tiles, too."""
         options = ("--cameras", "left", "--frames", "2", "--size", "4200x12", "--ldi-format", "ldi,exr")
         layers = "depth,objects,parts,triangles,ldi"
-        one = self.render("demo.json", "one", "--threads", "1", *options, layers=layers)
+        one = self.render("demo.json", "one", "--threads", "1", *options, layers=layers, run=self.alone)
         two = self.render("demo.json", "two", "--threads", "5", "--tile", "33x17", *options, layers=layers)
         self.assert_same_files(one, two)
         self.check_first(os.path.join(one, "left"), 2)
@@ -213,9 +214,10 @@ class Layers(Case):
         self.check_first(os.path.join(folder, "left"), 1)
 
 
-class Warp(Case):
+class Warp(ManyCase):
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.dataset = tempfile.mkdtemp(prefix="dgtk-cli-")
         cls.addClassCleanup(shutil.rmtree, cls.dataset, ignore_errors=True)
         subprocess.run([DGTK, "render", os.path.join(SCENES, "fig_4_7_stereo.json"), "-o", cls.dataset, "--quiet", "--layers",
@@ -338,11 +340,12 @@ class Warp(Case):
         self.assertFalse(os.path.exists(self.path("o.png")))
 
 
-class WarpToOthers(Case):
+class WarpToOthers(ManyCase):
     """A wall before cameras of several kinds, the first of which moves."""
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.dataset = tempfile.mkdtemp(prefix="dgtk-cli-")
         cls.addClassCleanup(shutil.rmtree, cls.dataset, ignore_errors=True)
         with open(os.path.join(cls.dataset, "wall.obj"), "w", encoding="ascii") as file:

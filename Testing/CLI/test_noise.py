@@ -9,7 +9,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-from harness import SCENES, SOURCE, Case, digests, load_json, main
+from harness import SCENES, SOURCE, digests, load_json, main
+from many_runs import ManyCase
 from pictures import read_exr
 
 ONE_PERCENT = 0.01
@@ -37,12 +38,12 @@ def linear(**more):
     return {"color": {"response": "linear", **more}}
 
 
-class Noise(Case):
+class Noise(ManyCase):
     def scene(self, name, cameras, **more):
         return self.write(name, json.dumps({"background": [1, 1, 1], **more, "cameras": cameras}))
 
-    def render(self, scene, folder, *options):
-        self.dgtk("render", scene, "-o", self.path(folder), "--quiet", *options)
+    def render(self, scene, folder, *options, run=None):
+        (run or self.dgtk)("render", scene, "-o", self.path(folder), "--quiet", *options)
         return self.path(folder)
 
     def color(self, folder, name, frame=0):
@@ -208,10 +209,10 @@ class Noise(Case):
     def test_the_same_bytes_for_threads_tiles_frames_and_other_layers(self):
         scene = os.path.join(SCENES, "noise_color.json")
         depth = os.path.join(SCENES, "noise_depth.json")
-        one = self.render(scene, "one", "--layers", "color_noisy", "--size", "120x90", "--threads", "1")
+        one = self.render(scene, "one", "--layers", "color_noisy", "--size", "120x90", "--threads", "1", run=self.alone)
         many = self.render(scene, "many", "--layers", "color_noisy", "--size", "120x90", "--threads", "5", "--tile", "61x47")
         self.assert_same_files(one, many)
-        one = self.render(depth, "one_depth", "--layers", "depth_noisy", "--threads", "1")
+        one = self.render(depth, "one_depth", "--layers", "depth_noisy", "--threads", "1", run=self.alone)
         many = self.render(depth, "many_depth", "--layers", "depth_noisy", "--threads", "5")
         self.assert_same_files(one, many)
         options = ("--layers", "color_noisy,depth_noisy", "--size", "160x120", "--cameras", "left")

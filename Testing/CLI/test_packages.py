@@ -16,6 +16,7 @@ import unittest
 
 import packages
 from harness import SCENES, SOURCE, WHOLE, Case, digests, main
+from many_runs import ManyCase
 
 PLAIN_ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("LD_LIBRARY_PATH", "PYTHONPATH", "DGTK")}
 CONTROL = ["control", "md5sums", "postinst", "postrm", "prerm", "shlibs"]
@@ -39,12 +40,14 @@ def library_folder():
     return "lib/" + packages.run("dpkg-architecture", "-qDEB_HOST_MULTIARCH").strip()
 
 
-def needed(path):
-    """Libraries that a program or library asks the loader for; none for other files."""
+def is_elf(path):
     with open(path, "rb") as file:
-        if file.read(4) != b"\x7fELF":
-            return []
-    return [line.split()[1] for line in packages.run("objdump", "-p", path).splitlines() if line.startswith("  NEEDED")]
+        return file.read(4) == b"\x7fELF"
+
+
+def said(entry, paths):
+    """Names in the dynamic sections of programs and libraries: NEEDED, those of libraries that they ask the loader for."""
+    return re.findall(rf"(?m)^  {entry} +(\S+)$", packages.run("objdump", "-p", *paths)) if paths else []
 
 
 class Contents(Case):
@@ -98,8 +101,9 @@ class Contents(Case):
                     packages.run("sh", "-n", os.path.join(folder, script))
         with open(self.path("dgtk", "shlibs"), encoding="utf-8") as file:
             shlibs = [line.split()[:3] for line in file]
-        sonames = [packages.run("objdump", "-p", path).split("SONAME")[1].split()[0].split(".so.")
-                   for path in glob.glob(unpacked(library_folder(), "libdgtk*.so.*.*.*"))]
+        libraries = glob.glob(unpacked(library_folder(), "libdgtk*.so.*.*.*"))
+        sonames = [name.split(".so.") for name in said("SONAME", libraries)]
+        self.assertEqual(len(sonames), len(libraries))
         self.assertEqual(sorted(shlibs), sorted([library, number, "dgtk"] for library, number in sonames))
         self.assertIn("libdgtkPipeline", [library for library, _, _ in shlibs])
 
@@ -149,20 +153,20 @@ class Dependencies(Case):
     def test_libraries_of_windows_are_needed_by_the_editor_alone(self):
         wanted = {"dgtk": set(), "dgtk-editor": set(), "python3-dgtk": set(), "libdgtk-dev": set()}
         for name, path in made["packages"].items():
-            for file in packages.files(path):
-                if not os.path.islink(made["root"] + file):
-                    wanted[name].update(needed(made["root"] + file))
+            paths = [made["root"] + file for file in packages.files(path)]
+            wanted[name].update(said("NEEDED", [path for path in paths if not os.path.islink(path) and is_elf(path)]))
         self.assertEqual([], [name for name in wanted["dgtk"] | wanted["python3-dgtk"] if "Qt" in name])
         self.assertIn("libQt5Widgets.so.5", wanted["dgtk-editor"])
         ours = {os.path.basename(file) for file in packages.files(made["packages"]["dgtk"]) if "libdgtk" in file}
         self.assertEqual(set(), {name for name in wanted["dgtk"] | wanted["python3-dgtk"] if name.startswith("libdgtk")} - ours)
 
 
-class Pages(Case):
+class Pages(ManyCase):
     def page(self, name):
         """As `man` shows it; it must have nothing to warn of."""
         done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", unpacked("share", "man", "man1", name + ".1.gz")],
-                              capture_output=True, text=True, env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80", "MANPAGER": "cat"})
+                              capture_output=True, text=True, env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80", "MANPAGER": "cat",
+                                                                      "MAN_DISABLE_SECCOMP": "1"})
         self.assertEqual(("", 0), (done.stderr, done.returncode), name)
         return " ".join(done.stdout.split()).replace("| ", "|")  # a line may break after it
 
@@ -203,24 +207,29 @@ class Pages(Case):
 
 
 class Completion(Case):
-    def completed(self, *words, program="dgtk"):
-        """What bash offers for the last of the words."""
+    def all_completed(self, lines, program="dgtk"):
+        """What bash offers for the last word of each line, which is a tuple of words."""
         function = "_" + program.replace("-", "_")
-        script = (f'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); {function}; '
-                  '[ ${#COMPREPLY[@]} -eq 0 ] || printf "%s\\n" "${COMPREPLY[@]}"')
+        script = ('source "$1"; shift; COMP_WORDS=(); for word; do if [ "$word" != END ]; then COMP_WORDS+=("$word"); else '
+                  f'COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); COMPREPLY=(); {function}; '
+                  '[ ${#COMPREPLY[@]} -eq 0 ] || printf "%s\\n" "${COMPREPLY[@]}"; echo END; COMP_WORDS=(); fi; done')
         file = unpacked("share", "bash-completion", "completions", program)
-        return packages.run("bash", "-euc", script, "bash", file, program, *words, cwd=self.folder).splitlines()
+        words = [word for line in lines for word in (program, *line, "END")]
+        found = packages.run("bash", "-euc", script, "bash", file, *words, cwd=self.folder).split("END\n")
+        return [offered.splitlines() for offered in found[:-1]]
+
+    def completed(self, *words, program="dgtk"):
+        return self.all_completed([words], program)[0]
 
     def test_commands_options_and_their_words(self):
         commands = json.loads(self.dgtk("list", "commands", "--json").stdout)["commands"]
         self.assertEqual([row["command"] for row in commands] + ["--help", "--version"], self.completed(""))
         self.assertEqual(["convert", "correspond", "compare"], self.completed("co"))
-        for row in commands:
-            names = {name for option in row["options"] for name in (option.get("short"), option["name"]) if name}
-            self.assertEqual(names, set(self.completed(row["command"], "-")))
-            for option in row["options"]:
-                if "choices" in option:
-                    self.assertEqual(option["choices"], self.completed(row["command"], option["name"], ""), option["name"])
+        for row, offered in zip(commands, self.all_completed([(row["command"], "-") for row in commands]), strict=True):
+            self.assertEqual({name for option in row["options"] for name in (option.get("short"), option["name"]) if name}, set(offered))
+        choices = [(row["command"], option) for row in commands for option in row["options"] if "choices" in option]
+        for (command, option), offered in zip(choices, self.all_completed([(command, option["name"], "") for command, option in choices]), strict=True):
+            self.assertEqual(option["choices"], offered, f"{command} {option['name']}")
         self.assertEqual(["ray", "raster"], sorted(self.completed("render", "--visibility", "ra"), reverse=True))
         self.assertEqual(["egl"], self.completed("render", "--gl", "=", "e"))
         self.assertEqual(["color,depth,distance"], self.completed("render", "--layers", "color,depth,dist"))
@@ -300,7 +309,9 @@ class Unpacked(Case):
         shutil.copy(os.path.join(SOURCE, "Testing", "Consumer", "project", "consumer.cxx"), self.folder)
         self.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.25)\nproject(Mine LANGUAGES C CXX)\nfind_package(DGTk 0.1 REQUIRED)\n"
                                      "add_executable(mine consumer.cxx)\ntarget_link_libraries(mine PRIVATE DGTk::Camera DGTk::Pipeline)\n")
-        self.run_there("cmake", "-G", "Ninja", "-S", ".", "-B", "build", f"-DDGTk_ROOT={unpacked()}")
+        with open(os.path.join(packages.BUILD, "CMakeCache.txt"), encoding="utf-8") as cache:  # what VTK would try of the system: it is the same
+            known = re.findall(r"(?m)^((?:CMAKE_HAVE_|CMAKE_LIB_|X11_LIB_)\w+:INTERNAL=1)$", cache.read())
+        self.run_there("cmake", "-G", "Ninja", "-S", ".", "-B", "build", f"-DDGTk_ROOT={unpacked()}", *("-D" + one for one in known))
         self.run_there("cmake", "--build", "build")
         self.assertRegex(self.run_there(self.path("build", "mine")), r"^320 240, \d+ layers\n$")
         self.assertTrue(self.loaded(self.path("build", "mine"))[0].startswith(made["root"]))

@@ -7,7 +7,8 @@ import subprocess
 
 import numpy
 
-from harness import SCENES, SOURCE, WHOLE, Case, digests, main, needs_povray
+from harness import SCENES, SOURCE, WHOLE, digests, main, needs_povray
+from many_runs import ManyCase
 from pictures import read_png
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
@@ -47,7 +48,7 @@ def moved(camera, x, y):
     return changed
 
 
-class Pov(Case):
+class Pov(ManyCase):
     def povray(self, scene):
         """What POV-Ray makes of a scene; its size stands in the file's second line."""
         with open(scene, encoding="utf-8") as file:
@@ -164,9 +165,9 @@ class Pov(Case):
                     self.assertLess(abs(numpy.array(before["bounds"]) - numpy.array(after["bounds"])).max(), 1e-6)
 
     def test_same_bytes(self):
-        for folder in ("one", "two"):
+        for folder, run in (("one", self.alone), ("two", self.dgtk)):
             os.mkdir(self.path(folder))
-            self.dgtk("convert", os.path.join(SCENES, "cameras_all_kinds.json"), self.path(folder, "s.pov"))
+            run("convert", os.path.join(SCENES, "cameras_all_kinds.json"), self.path(folder, "s.pov"))
         self.assertGreater(len(digests(self.path("one"))), 2)
         self.assert_same_files(self.path("one"), self.path("two"))
 

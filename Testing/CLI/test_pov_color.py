@@ -7,7 +7,8 @@ import shutil
 import numpy
 
 import pictures
-from harness import SCENES, SOURCE, Case, load_json, main, needs_povray
+from harness import SCENES, SOURCE, load_json, main, needs_povray
+from many_runs import ManyCase
 from pov_scene import ids_of, read_pnm
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
@@ -52,7 +53,7 @@ def coarse_ball(segments, rings, top=None):
 
 
 @needs_povray
-class Color(Case):
+class Color(ManyCase):
     def render(self, scene, name, *options):
         self.dgtk("render", scene, "-o", self.path(name), "--quiet", "--color-bits", "16", *options)
         return self.path(name)

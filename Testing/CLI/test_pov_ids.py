@@ -3,31 +3,32 @@
 import glob
 import json
 import os
-import subprocess
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
-from harness import DGTK, EXTRA, SCENES, SOURCE, Case, copy_scenes, load_json, main, needs_povray
+from harness import EXTRA, SCENES, SOURCE, WHOLE, copy_scenes, load_json, main, needs_povray
+from many_runs import ManyCase
 from pictures import read_png
 from pov_scene import Scene, Screen, ids_of, read_pnm
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
 EXTENSIONS = (".ac", ".acc", ".md2", ".3ds", ".pov", ".obj", ".gltf", ".stl", ".ply", ".off", ".dae", ".fbx")
-SIZE = (160, 120)
+SIZE = (160, 120) if WHOLE else (80, 60)
 WORKERS = 4  # POV-Ray sleeps for most of a small picture
 
 
 def cameras_around(low, high, times=1):
     """Three cameras that see a box whole: centred, off-centre with unequal focal lengths and skew, orthographic."""
     centre, radius = (low + high) / 2, numpy.linalg.norm(high - low) / 2
-    width, height = (times * size for size in SIZE)
+    width, height = (int(times * size) for size in SIZE)
 
     def camera(name, towards, distance, **more):
         eye = centre + radius * distance * numpy.array(towards) / numpy.linalg.norm(towards)
         return {"name": name, "width": width, "height": height, "eye": eye.tolist(), "lookAt": centre.tolist(),
                 "near": 0.5 * radius, "far": 6 * radius, **more}
 
-    K = (times * numpy.array([[190, 9, 62], [0, 145, 71], [0, 0, 1 / times]])).tolist()
+    K = (width / 160 * numpy.array([[190, 9, 62], [0, 145, 71], [0, 0, 160 / width]])).tolist()
     return [camera("centred", (0.5, 0.35, 1), 2.9, fovY=42), camera("off-centre", (-0.9, 0.5, -0.7), 3, K=K),
             camera("orthographic", (0.3, 1, 0.6), 2.5, model="orthographic", viewHeight=2.2 * radius)]
 
@@ -47,7 +48,7 @@ def side_by_side(models):
 
 
 @needs_povray
-class FlatIds(Case):
+class FlatIds(ManyCase):
     def test_differences_are_explained_by_edges_only(self):
         """What a camera sees that is moved by less than the 1/64 pixel differs at edges; by more, also elsewhere."""
         with open(os.path.join(SCENES, "cameras_all_kinds.json"), encoding="utf-8") as file:
@@ -76,7 +77,10 @@ class FlatIds(Case):
         `cameras`: of each of the folders that the run makes, below `out`.
         """
         command = ("render", scenes, "--quiet", "--visibility", "ray", "--pov-flat-ids", "--threads", WORKERS, "--frames", frame, *options)
-        self.dgtk(*command, "-o", self.path(out), "--layers", "color,objects", "--renderer", "povray")
+        shares = range(WORKERS if len(cameras) > 1 else 1)
+        with ThreadPoolExecutor(len(shares)) as pool:
+            list(pool.map(lambda share: self.dgtk(*command, "-o", self.path(out), "--layers", "color,objects", "--renderer", "povray",
+                                                  *(("--shard", f"{share}/{len(shares)}") if len(shares) > 1 else ())), shares))
         far, counts = [], {}
         for name in [os.path.join(folder, camera) for folder in cameras for camera in cameras[folder]]:
             expected = ids_of(read_pnm(self.path(out, name, "objects", f"{frame:06d}.ppm")))
@@ -98,7 +102,7 @@ class FlatIds(Case):
 
     def dgtk_json(self, *arguments, damaged=False):
         """What dgtk prints; nothing for what may be damaged, and is."""
-        done = subprocess.run([DGTK, *arguments, "--json"], capture_output=True, text=True, timeout=60)
+        done = self.ran(*arguments, "--json", timeout=60)
         self.assertTrue(damaged or done.returncode == 0, done.stderr)
         return json.loads(done.stdout) if done.returncode == 0 else None
 
@@ -115,7 +119,7 @@ class FlatIds(Case):
         model = os.path.join(MODELS, "chair.3ds")
         low, high = numpy.array(self.dgtk_json("info", model)["bounds"])
         radius = numpy.linalg.norm(high - low) / 2
-        cameras = [{**camera, "near": 2.4 * radius, "far": 3.1 * radius} for camera in cameras_around(low, high)]
+        cameras = [{**camera, "near": 2.4 * radius, "far": 3.1 * radius} for camera in cameras_around(low, high, 160 / SIZE[0])]
         scene = {"version": 1, "objects": [{"name": "model", "model": model}], "cameras": cameras}
         names = {"": [camera["name"] for camera in cameras]}
         far, cut = self.compare(self.write("cut.json", json.dumps(scene)), "cut", names)
@@ -128,7 +132,7 @@ class FlatIds(Case):
         self.assertGreater(sum(counts[1] for counts, _ in whole.values()), seen + 100)
 
     def test_models(self):
-        """Nine of like sizes in a scene: POV-Ray takes longer to start than to draw one."""
+        """Sixteen of like sizes in a scene: POV-Ray takes longer to start than to draw one."""
         paths = sorted(os.path.join(root, name) for top in (MODELS, EXTRA) if top for root, _, names in os.walk(top)
                        for name in names if os.path.splitext(name)[1].lower() in EXTENSIONS)
         self.assertGreater(len(paths), 15)
@@ -141,7 +145,7 @@ class FlatIds(Case):
             if info and info["triangles"]:
                 models.append((path, *numpy.array(info["bounds"])))
         models.sort(key=lambda model: numpy.linalg.norm(model[2] - model[1]))
-        groups = {f"{i:03d}": models[i:i + 9] for i in range(0, len(models), 9)}
+        groups = {f"{i:03d}": models[i:i + 16] for i in range(0, len(models), 16)}
         os.mkdir(self.path("groups"))
         for name, group in groups.items():
             self.write(f"groups/{name}.json", json.dumps(side_by_side(group)))

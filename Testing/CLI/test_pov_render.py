@@ -10,7 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
-from harness import DGTK, SCENES, SOURCE, WHOLE, Case, digests, load_json, main, needs_povray
+from harness import SCENES, SOURCE, WHOLE, digests, load_json, main, needs_povray
+from many_runs import ManyCase
 from pictures import read_png
 from pov_scene import draw, ids_of, read_pnm
 
@@ -32,7 +33,7 @@ def povray_processes(folder):
     return found
 
 
-class WithoutPovRay(Case):
+class WithoutPovRay(ManyCase):
     """What needs no POV-Ray, or one of our own making."""
 
     def fake(self, script):
@@ -102,7 +103,7 @@ class WithoutPovRay(Case):
 
     def test_layer_is_found_again_and_resumed(self):
         options = ("--layers", "pov", "--cameras", "matrix,orthographic", "--frames", "0:2")
-        self.dgtk("render", SCENE, "-o", self.path("one"), *options, "--threads", "1", *SMALL)
+        self.alone("render", SCENE, "-o", self.path("one"), *options, "--threads", "1", *SMALL)
         self.dgtk("render", SCENE, "-o", self.path("two"), *options, "--threads", "3", *SMALL)
         self.assert_same_files(self.path("one"), self.path("two"))
         manifest = load_json(self.path("one", "manifest.json"))
@@ -135,12 +136,12 @@ def recorded_files(folder):
 
 
 @needs_povray
-class Render(Case):
+class Render(ManyCase):
     def test_truth_is_unchanged_and_threads_change_nothing(self):
         options = ("--layers", "color,tiles,depth,normal,objects,triangles,pov", "--cameras", "matrix,flight", "--frames", "0", "--tile", "25x20",
                    "--contact-sheet", "--color-format", "png,exr", "--pov-antialias", "2", "--pov-area-lights", "2", "--pov-reflections", "--size", "48x36", "--quiet")
         self.dgtk("render", SCENE, "-o", self.path("rays"), *options)
-        self.dgtk("render", SCENE, "-o", self.path("one"), *options, "--renderer", "povray", "--threads", "1")
+        self.alone("render", SCENE, "-o", self.path("one"), *options, "--renderer", "povray", "--threads", "1")
         self.dgtk("render", SCENE, "-o", self.path("three"), *options, "--renderer", "povray", "--threads", "3")
         self.assert_same_files(self.path("one"), self.path("three"))
         rays, pov = digests(self.path("rays")), digests(self.path("one"))

@@ -9,7 +9,8 @@ import subprocess
 import sys
 
 import numpy
-from harness import SCENES, SOURCE, Case, main
+from harness import SCENES, SOURCE, main
+from many_runs import ManyCase
 from pictures import read_exr, read_png
 
 PATIENCE = int(os.environ.get("DGTK_TEST_PATIENCE", 1))  # how much longer everything takes, as with sanitizers
@@ -18,7 +19,7 @@ sys.path.insert(0, PACKAGES)
 DEMO = os.path.join(SCENES, "demo.json")
 
 
-class Interpreter(Case):
+class Interpreter(ManyCase):
     """Programs in interpreters of their own, which a signal may end."""
 
     def python(self, program, *arguments, flags=(), status=0, limit=120):

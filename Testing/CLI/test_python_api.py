@@ -11,6 +11,7 @@ import subprocess
 
 import numpy
 from harness import SCENES, SOURCE, Case, digests, main, measures
+from many_runs import ManyCase
 from python_package import DEMO, OF_VTK, PACKAGES, SIZE, dgtk, square
 
 
@@ -197,7 +198,7 @@ class Scenes(Case):
             dgtk.render(dgtk.scene({}), "depth")
 
 
-class Datasets(Case):
+class Datasets(ManyCase):
     LAYERS = ["color", "depth", "objects", "flow_forward"]
 
     def by_command(self, *more):

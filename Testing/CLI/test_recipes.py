@@ -10,7 +10,7 @@ RECIPES = os.path.join(os.environ["DGTK_SOURCE"], "Data", "Recipes")
 EXPORTS = {"bin_of_parts": ["bop"], "table_tops": ["coco", "coco-panoptic"], "street": ["kitti-object", "kitti-odometry", "kitti2015"],
            "flying_things": ["flyingthings"], "turntable": ["colmap", "nerf-synthetic", "transforms"],
            "fisheye_rig": ["imagefolder", "webdataset"]}
-MORE = {"turntable": ["--frames", "0:11"]}  # a third of the turn
+MORE = {"turntable": ["--frames", "0:35:9"]}  # of the whole turn
 
 
 class Recipes(Case):
@@ -20,7 +20,7 @@ class Recipes(Case):
         for name in files:
             with self.subTest(name):
                 out = self.path(name)
-                done = subprocess.run([os.path.join(RECIPES, "make"), name, "-o", out, "--samples", "0:1", "--size", "96x72", "--quiet", *MORE.get(name, [])],
+                done = subprocess.run([os.path.join(RECIPES, "make"), name, "-o", out, "--samples", "0:1", "--size", "64x48", "--quiet", *MORE.get(name, [])],
                                       capture_output=True, text=True, timeout=550, env={**os.environ, "DGTK": DGTK})
                 self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
                 self.assertEqual(sorted(os.listdir(os.path.join(out, "export"))), EXPORTS[name])

@@ -12,13 +12,14 @@ import unittest
 import numpy
 
 import pictures
-from harness import DGTK, SCENES, Case, digests, ended, load_json, main
+from harness import DGTK, SCENES, digests, ended, load_json, main
+from many_runs import ManyCase
 
 SCENE = os.path.join(SCENES, "fig_4_14_bouncing_ball.scene")
 OPTIONS = ("--quiet", "--layers", "color,depth,objects,calibration", "--size", "160x120")
 
 
-class Resume(Case):
+class Resume(ManyCase):
     def interrupt(self, folder, how, options=OPTIONS, files=12):
         """Starts a run and sends `how` as soon as more than so many files are there; returns its exit status and what it said."""
         return self.interrupted(["render", SCENE, "-o", folder, *options], folder, how,

@@ -3,7 +3,8 @@
 import os
 import shutil
 
-from harness import SCENES, Case, digests, main
+from harness import SCENES, digests, main
+from many_runs import ManyCase
 from test_tiles import PIXEL_LAYERS, without_tiles
 
 # What needs neighbours, other views, every surface along the ray or many samples a pixel: small pictures of one scene, with more than 2^14 pixels
@@ -14,12 +15,12 @@ WIDE_LAYERS = ("edges,correspondence,disparity,disparity_forward,disparity_backw
 os.environ["DGTK_CACHE"] = "0"  # what runs have read of models is compared, too
 
 
-class SameBytes(Case):
+class SameBytes(ManyCase):
     def test_layers_that_need_more_than_their_pixel(self):
         for samples, layers, part in ((1, WIDE_LAYERS, ("--size", "172x96", "--frames", "1")), (2, "color,alpha,coverage,tiles", ("--size", "96x72", "--frames", "0:1"))):
             common = ("render", os.path.join(SCENES, "demo.json"), "--quiet", *part)
             one = self.path(f"one{samples}")
-            self.dgtk(*common, "-o", one, "--layers", layers, "--samples", samples, "--threads", 1, "--gl", "egl")
+            self.alone(*common, "-o", one, "--layers", layers, "--samples", samples, "--threads", 1, "--gl", "egl")
             for threads, gl, tile in ((2, "osmesa", "640x480"), (5, "egl", "37x23")):
                 with self.subTest(samples=samples, threads=threads, gl=gl, tile=tile):
                     other = self.path("other")
@@ -34,7 +35,7 @@ class SameBytes(Case):
         scene = os.path.join(SCENES, "demo.json")
         for engine in ("raster", "ray"):
             common = ("render", scene, "--quiet", "--layers", PIXEL_LAYERS, "--size", "64x48", "--visibility", engine)
-            self.dgtk(*common, "-o", self.path(engine), "--threads", 1)
+            self.alone(*common, "-o", self.path(engine), "--threads", 1)
             for name, options in (("again", ()), ("five", ("--threads", 5))):
                 self.dgtk(*common, "-o", self.path(engine + name), *options)
                 self.assert_same_files(self.path(engine), self.path(engine + name))
@@ -50,7 +51,7 @@ class SameBytes(Case):
         scene = os.path.join(SCENES, "demo.json")
         common = ("render", scene, "--quiet", "--layers", "color", "--size", "160x120", "--frames", "0", "--samples", 3,
                   "--color-bits", 16, "--color-format", "png,exr")
-        self.dgtk(*common, "-o", self.path("one"), "--threads", 1)
+        self.alone(*common, "-o", self.path("one"), "--threads", 1)
         self.dgtk(*common, "-o", self.path("two"), "--threads", 2, "--gl", "osmesa")
         self.assert_same_files(self.path("one"), self.path("two"))
 

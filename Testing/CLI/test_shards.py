@@ -8,7 +8,8 @@ import signal
 import subprocess
 import time
 
-from harness import DGTK, Case, digests, load_json, main
+from harness import DGTK, digests, load_json, main
+from many_runs import ManyCase
 
 SOURCE = os.environ["DGTK_SOURCE"]
 DEMO = os.path.join(SOURCE, "Data", "Scenes", "demo.json")
@@ -27,7 +28,7 @@ def flip(path, bits):
         file.write(bytes([last ^ bits]))
 
 
-class Shards(Case):
+class Shards(ManyCase):
     def scenes(self, count=8):
         """Plain scenes of a random one, in a folder with a file that is no scene."""
         os.mkdir(self.path("models"))

@@ -12,7 +12,8 @@ import zlib
 import numpy
 
 from dataset_edits import Edits
-from harness import SCENES, Case, load_json, main
+from harness import SCENES, load_json, main
+from many_runs import ManyCase
 
 LAYERS = "color,depth,distance,position,normal,uv,objectcoords,objects,parts,triangles,calibration,classes"
 WIDTH, HEIGHT = 40, 36  # more than two chunks of 16 rows
@@ -34,12 +35,13 @@ def gray_png(width, height, value):
             chunk(b"IDAT", rows) + chunk(b"IEND", b""))
 
 
-class Spoiled(Case):
+class Spoiled(ManyCase):
     """One dataset, of which each case spoils a copy."""
     scene, options = "", ()
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.whole = tempfile.mkdtemp(prefix="dgtk-verify-")
         if not cls.scene:
             return
@@ -368,7 +370,7 @@ class PlantedSamples(Spoiled):
                 self.dgtk("verify", self.path("set"))
 
 
-class Placed(Case):
+class Placed(ManyCase):
     """Boxes before a wall, seen by cameras side by side, one raised, one turned and one far to the right."""
 
     def verified(self, offset, layers, *options):
@@ -414,7 +416,7 @@ class Placed(Case):
                 self.verified(offset, layers, "--frames", "0:1", "--pairs", "middle:raised,turned:right")
 
 
-class AllAround(Case):
+class AllAround(ManyCase):
     """A panorama in a room, in which something moves: two of its columns look along the plane of the camera, where depth is 0."""
     COLUMN = 14
 
@@ -454,7 +456,7 @@ class AllAround(Case):
                 self.assertIn("layer sceneflow", self.dgtk("verify", data.root, "--check", "motion", status=1).stderr)
 
 
-class Refusals(Case):
+class Refusals(ManyCase):
     def test_not_a_dataset(self):
         self.refused("verify", self.folder, status=3, says="is not a dataset")
         self.refused("verify", self.path("none"), status=3, says="is not a dataset")
