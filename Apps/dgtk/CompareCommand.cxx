@@ -3,6 +3,7 @@
 
 #include "dgtkCompare.h"
 #include "dgtkError.h"
+#include "dgtkJournal.h"
 #include "dgtkSceneFolders.h"
 
 #include <algorithm>
@@ -37,7 +38,8 @@ void setLimit(CompareTolerance& tolerance, const std::string& text, const std::s
   const std::string number = equals == std::string::npos ? "" : part.substr(equals + 1);
   double value = -1;
   const auto [end, code] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (code != std::errc() || end != number.data() + number.size() || !std::isfinite(value) || value < 0)
+  const bool twice = text.find(key + '=') != text.rfind(key + '=');
+  if (twice || code != std::errc() || end != number.data() + number.size() || !std::isfinite(value) || value < 0)
   {
     badTolerance(text, part);
   }
@@ -87,6 +89,14 @@ int compareFolders(const std::string& a, const std::string& b, const Tolerances&
   if (tolerances.count("") > 0)
   {
     throw UsageError(std::string(toleranceOption) + ": datasets need the layer: LAYER:value=V,pixels=N,share=S");
+  }
+  for (const std::string& folder : { a, b })
+  {
+    std::error_code code;
+    if (!tolerances.empty() && !std::filesystem::exists(folder + '/' + manifestName, code) && !code)
+    {
+      throw UsageError(std::string(toleranceOption) + ": is for datasets, and " + folder + " has no " + manifestName);
+    }
   }
   const DatasetComparison result = compareDatasets(a, b, tolerances);
   if (json)

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 namespace dgtk::app
 {
@@ -42,6 +43,12 @@ int runMerge(const Arguments& arguments)
   while (folder.size() > 1 && folder.back() == '/')
   {
     folder.pop_back();
+  }
+  std::error_code code;
+  const std::filesystem::file_status status = std::filesystem::status(folder, code);
+  if (std::filesystem::status_known(status) && !std::filesystem::is_directory(status))
+  {
+    throw UsageError(folder + (std::filesystem::exists(status) ? ": is no folder" : ": does not exist"));
   }
   const bool exported = hasParts(folder) && !readParts(folder).exporter.empty();
   const MergeReport report = exported ? mergeExport(folder) : mergeParts(folder, machineThreads());

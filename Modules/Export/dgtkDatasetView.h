@@ -147,6 +147,9 @@ public:
   double seconds(int frame) const;
   /// Cameras whose pictures are rectified with each other in all frames, left one first.
   std::vector<RectifiedPair> rectifiedPairs() const;
+  /// Of each shot, by its index: the camera that its disparities are to, of the dataset's cameras, selected or not, the
+  /// nearest with which it is a rectified pair at its frame, of several the first by name; "" for none.
+  std::vector<std::string> disparityPartners() const;
 
 private:
   class Poses;

@@ -60,6 +60,7 @@ void requireOther(const ExportRequest& request)
   {
     throw UsageError(request.folder + ": is the dataset's own folder; name another one for the export");
   }
+  requireOutsideDatasets(request.folder);
 }
 
 } // namespace

@@ -96,30 +96,6 @@ int sideOf(const ReportSource& source, const std::vector<ReportLayer>& layers)
   return std::min(largestSide, std::max(smallestSide, static_cast<int>(side) / 8 * 8));
 }
 
-/// A dataset with a file that its manifest does not list is no sound one.
-void requireOutsideDatasets(const std::string& file)
-{
-  namespace fs = std::filesystem;
-  std::error_code code;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(file, code), code);
-  for (fs::path folder = whole.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
-  {
-    if (!fs::exists(folder / manifestName, code))
-    {
-      continue;
-    }
-    try
-    {
-      readManifestIn(folder.string(), [](DatasetFile&&) {});
-    }
-    catch (const InputError&) // of a folder of datasets, or of another program
-    {
-      continue;
-    }
-    throw UsageError(file + ": lies in the dataset in " + folder.string() + "; name a file outside");
-  }
-}
-
 /// The page, written as it comes.
 class PageWriter
 {

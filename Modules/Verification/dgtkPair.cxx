@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -35,13 +36,13 @@ double rectifiedBaseline(const Eye& a, const Eye& b)
   return same ? centre.x() : 0;
 }
 
-/// The nearest camera of the scene that is a rectified pair with the picture's.
-std::optional<Pair> disparityPair(Picture& picture)
+/// The nearest of some cameras that is a rectified pair with the picture's, the first of several.
+std::optional<Pair> nearestPair(Picture& picture, const std::vector<std::string>& cameras)
 {
   Dataset& dataset = picture.dataset();
   std::optional<Pair> best;
   double nearest = infinite;
-  for (const std::string& name : dataset.stage().cameraNames())
+  for (const std::string& name : cameras)
   {
     const std::optional<Eye> eye =
       name == picture.camera() ? std::nullopt : dataset.eye(name, picture.frame(), picture.eye().record());
@@ -54,6 +55,18 @@ std::optional<Pair> disparityPair(Picture& picture)
     }
   }
   return best;
+}
+
+/// One that the dataset shows, where there is one.
+std::optional<Pair> disparityPair(Picture& picture)
+{
+  std::vector<std::string> all = picture.dataset().stage().cameraNames();
+  std::sort(all.begin(), all.end());
+  std::vector<std::string> shown;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(shown),
+    [&](const std::string& name) { return picture.dataset().camera(name, picture.frame()) != nullptr; });
+  const std::optional<Pair> best = nearestPair(picture, shown);
+  return best ? best : nearestPair(picture, all);
 }
 
 int stepOf(const std::string& layer) { return layer.find("_forward") != std::string::npos ? 1 : -1; }

@@ -119,12 +119,15 @@ class Tolerances(Case):
 
     def test_wrong_usage(self):
         for wrong in ("color", "color:", "color:2", "color:value", "color:value=", "color:value=-1", "color:value=nan", "color:share=1.1",
-                      "color:pixels=0.5", "color:value=1,", "color:values=1", "color:value=1 "):
+                      "color:pixels=0.5", "color:value=1,", "color:values=1", "color:value=1 ",
+                      "color:value=1,value=2"):
             self.refused("compare", self.one, self.other, "--tolerance", wrong, status=2, says="expected [LAYER:]value=V,pixels=N,share=S")
         self.refused("compare", self.one, self.other, "--tolerance", "colour:value=1", status=2,
                      says=["'colour'", "it has color, depth, objects"])
         self.refused("compare", self.one, self.other, "--tolerance", "value=1", status=2, says="datasets need the layer")
         self.refused("compare", self.one, self.other, "--tolerance", "color:value=1", "--tolerance", "color:share=1", status=2, says="two for")
+        os.mkdir(self.path("folder"))
+        self.refused("compare", self.one, self.path("folder"), "--tolerance", "color:value=1", status=2, says=["folder has no manifest.json"])
         self.refused("compare", self.one, self.path("nothing"), status=3, says=["nothing", "does not exist"])
         self.refused("compare", self.path("nothing"), self.one, status=3, says=["nothing", "does not exist"])
 

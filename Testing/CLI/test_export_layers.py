@@ -184,6 +184,18 @@ class MovedDisparities(Case):
         self.assertTrue((outside == (beyond > 0))[sure].all())
         self.assertGreater(outside.sum(), 50)
 
+    def test_cameras_of_the_run_come_first(self):
+        """The nearest of these; a camera by itself has that of the scene. Of several as near it is the first by name."""
+        cameras = [rig("b", 0.2), rig("far", -0.4), rig("left", 0), rig("right", 0.12), rig("a", -0.12)]
+        for names, x in ((("far", "left"), -0.4), (("left", "b", "far"), 0.2), (("left",), -0.12), ((), -0.12)):
+            self.render(cameras, "--frames", "0", "--replace", *(("--cameras", ",".join(names)) if names else ()), layers="disparity,depth,objects")
+            depth = self.load("left", "depth", 0)
+            np.testing.assert_allclose(self.load("left", "disparity", 0)[np.isfinite(depth)], 100 * abs(x) / depth[np.isfinite(depth)], rtol=1e-12)
+            outside = self.classes("left", "disparity", 0) == 4
+            self.assertEqual(bool(outside[:, :20].any()), x > 0)
+            self.assertEqual(bool(outside[:, -20:].any()), x < 0)
+            self.dgtk("verify", self.path("out"))
+
     def test_where_there_is_none(self):
         self.render([rig("left", 0), rig("right", 0.12)], "--frames", "0", layers="disparity,disparity_forward")
         self.assertEqual(self.files("disparity_forward"), ["000000.npy", "000000.pfm", "000000.png"])

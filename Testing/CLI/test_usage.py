@@ -59,7 +59,18 @@ class Usage(ManyCase):
         self.refused("info", self.path("nothing"), status=3, says="nothing: cannot be read: No such file or directory")
         self.refused("export", self.path("x"), "-o", self.path("y"), status=2, says="export needs a format")
         self.refused("list", "nothing", status=2, says="expected one of readers")
+        self.refused("merge", self.path("nothing"), status=2, says="nothing: does not exist")
+        self.refused("merge", SCENE, status=2, says="demo.json: is no folder")
         self.assertFalse(os.path.exists(self.path("x")))
+
+    def test_nothing_is_written_into_a_dataset(self):
+        """It would not be sound any more."""
+        dataset = self.path("dataset")
+        self.dgtk("render", SCENE, "-o", dataset, "--quiet", "--layers", "color,depth", "--size", "16x12", "--frames", "0")
+        inside = os.path.join(dataset, "left", "more")
+        self.refused("render", SCENE, "-o", inside, "--layers", "depth", status=2, says=("lies in the dataset in", "dataset;"))
+        self.refused("export", dataset, "-o", inside, "--format", "tum", status=2, says="lies in the dataset in")
+        self.dgtk("verify", dataset)
 
     def test_closed_streams_are_no_files(self):
         """What is said of a run does not get into a file that took the place of standard error; what cannot be said is an error."""

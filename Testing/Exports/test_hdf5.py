@@ -107,6 +107,15 @@ class BlenderProc(datasets.ExportCase):
         for number, name in enumerate(sorted(os.listdir(folder))):
             self.assertEqual(os.path.isdir(os.path.join(folder, name)), number in (0, 2), name)
 
+    def test_flow_leads_to_pictures_of_the_export(self):
+        dataset = self.render(datasets.stereo(self.path("scene"), 4), LAYERS, "--frames", "0:2")  # frame 2 has flow to the scene's frame 3
+        for frames, forward, backward in (((), (0, 1), (1, 2)), (("--frames", "0:2:2"), (), ())):
+            folder, _ = self.export(dataset, "hdf5", *frames)
+            for name in set(os.listdir(folder)) - {"export.json"}:
+                frame, found = int(name.split(".")[0]), self.frame(os.path.join(folder, name))
+                self.assertEqual(("forward_flow_0" in found, "backward_flow_1" in found), (frame in forward, frame in backward), name)
+                self.assertIn("disparity_0", found)
+
     def test_large_pictures_have_several_chunks(self):
         dataset = self.render(datasets.walk(self.path("scene"), frames=2), "color,depth,objects,classes", "--size", "611x403")
         folder, _ = self.export(dataset, "hdf5")
@@ -239,6 +248,13 @@ class Spring(datasets.ExportCase):
         self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--frames", "0:2:2", status=2, says="not consecutive")
         self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--image-format", "jpg", status=2, says="PNG")
         self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--cameras", LEFT, status=2, says="no two cameras")
+        document = load_json(self.path("scene", "stereo.json"))
+        for camera, cx in zip(document["cameras"], (48, 44.5)):
+            del camera["fovY"]
+            camera["K"] = [[100, 0, cx], [0, 100, 36], [0, 0, 1]]
+        shifted = self.render(self.write(self.path("scene", "shifted.json"), json.dumps(document)), self.LAYERS + ",depth,objects")
+        for form in ("spring", "sintel", "flyingthings"):
+            self.refused("export", shifted, "--format", form, "-o", self.path("no"), status=2, says="has another cx than 'left eye' (44.5 and 48)")
         self.assertFalse(os.path.exists(self.path("no")))
 
 

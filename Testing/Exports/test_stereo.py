@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Middlebury, ETH3D, MPI Sintel and FlyingThings3D, read as their own tools do: evaldisp, sintel_io.py, the readers of SceneFlow."""
+import json
 import os
 import re
 
+import h5py
 import numpy as np
 
 import datasets
@@ -242,6 +244,47 @@ class FlyingThings(datasets.ExportCase):
         self.assertEqual(os.listdir(os.path.join(folder, "frames_finalpass", "TEST", "A", "0000", "left")), ["0006.png"])
         self.refused("export", dataset, "--format", "flyingthings", "-o", self.path("twice"), "--split", "train=0:1,Train=2:2", status=2, says=("two files would be", "/TRAIN/"))
         self.assertFalse(os.path.exists(self.path("twice")))
+
+
+
+class OfThreeCameras(datasets.ExportCase):
+    """Disparities are those to the nearest camera of the run: what an export says of the pair must be of the same one."""
+    NAMES = "left eye,right.eye"
+
+    def setUp(self):
+        super().setUp()
+        self.file = datasets.stereo(self.path("scene"), 1)
+        document = load_json(self.file)
+        document["cameras"].append({**document["cameras"][0], "name": "middle", "eye": [0, 0.2, 4.5], "lookAt": [0, 0.2, 0]})
+        self.write(self.file, json.dumps(document))
+
+    def baseline(self, dataset, *options):
+        """Of the only pair, in metres, which must give the depth of the left camera's pixels."""
+        folder, record = self.export(dataset, "middlebury", *options)
+        left, _ = [one["camera"] for one in record["names"]]
+        scene, = [os.path.join(folder, name) for name in os.listdir(folder) if name != "export.json"]
+        numbers, found = calib(os.path.join(scene, "calib.txt")), read_pfm(os.path.join(scene, "disp0GT.pfm"))
+        depth = layer_of(dataset, "depth", left, 0) * 1000
+        self.assertLess(np.abs(numbers["baseline"] * numbers["cam0"][0, 0] / (found + numbers["doffs"]) / depth - 1)[found < np.inf].max(), 1e-6)
+        return numbers["baseline"] / 1000
+
+    def test_a_run_of_two_has_the_disparities_of_these(self):
+        dataset = self.render(self.file, "color,disparity,depth", "--cameras", self.NAMES)
+        self.dgtk("verify", dataset)
+        self.assertAlmostEqual(self.baseline(dataset), 0.12)
+
+    def test_pairs_are_of_cameras_whose_disparities_are_to_each_other(self):
+        dataset = self.render(self.file, "color,disparity,depth,objects,classes")
+        self.dgtk("verify", dataset)
+        self.assertAlmostEqual(self.baseline(dataset), 0.06)  # of `middle` and, of those as near, the first by name
+        for form in ("middlebury", "hdf5"):
+            self.refused("export", dataset, "--format", form, "-o", self.path("no"), "--cameras", self.NAMES, status=2,
+                         says=("disparities of camera 'left eye' are those to 'middle', not to 'right.eye'", "--cameras"))
+        folder, record = self.export(dataset, "hdf5")
+        self.assertEqual(sorted((one["camera"], one["name"]) for one in record["names"]),
+                         [("left eye", "left_eye/0.hdf5_0"), ("middle", "left_eye/0.hdf5_1"), ("right.eye", "right_eye/0.hdf5")])
+        with h5py.File(os.path.join(folder, "right_eye", "0.hdf5"), "r") as file:
+            self.assertNotIn("disparity", file)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 #include "dgtkFolderRecords.h"
 #include "dgtkJournal.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkRunParts.h"
 
 #include <algorithm>
@@ -80,6 +81,28 @@ FolderContents folderContents(const std::string& path, const std::string& reques
     throw MachineError(path + ": a file stands where the folder has to be");
   }
   return isRunning(folder) ? FolderContents::Running : contentsOf(folder, readFolderRecords(folder), requestHash);
+}
+
+void requireOutsideDatasets(const std::string& path)
+{
+  std::error_code code;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, code), code);
+  for (fs::path folder = whole.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+  {
+    if (!fs::exists(folder / manifestName, code))
+    {
+      continue;
+    }
+    try
+    {
+      readManifestIn(folder.string(), [](DatasetFile&&) {});
+    }
+    catch (const InputError&) // of a folder of datasets, or of another program
+    {
+      continue;
+    }
+    throw UsageError(path + ": lies in the dataset in " + folder.string() + "; name a place outside");
+  }
 }
 
 std::string describe(FolderContents contents)

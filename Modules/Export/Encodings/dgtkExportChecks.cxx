@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -97,9 +98,10 @@ void requireConsecutive(const DatasetView& dataset, const std::string& format)
   }
 }
 
-std::vector<CameraEyes> eyesOf(const DatasetView& dataset)
+namespace
 {
-  std::vector<RectifiedPair> pairs = dataset.rectifiedPairs();
+std::vector<CameraEyes> eyesOf(const DatasetView& dataset, std::vector<RectifiedPair> pairs)
+{
   std::sort(pairs.begin(), pairs.end(),
     [](const RectifiedPair& a, const RectifiedPair& b)
     { return std::tie(a.baseline, a.left, a.right) < std::tie(b.baseline, b.left, b.right); });
@@ -128,11 +130,68 @@ std::vector<CameraEyes> eyesOf(const DatasetView& dataset)
   }
   return eyes;
 }
+} // namespace
+
+std::vector<CameraEyes> eyesOf(const DatasetView& dataset) { return eyesOf(dataset, dataset.rectifiedPairs()); }
+
+std::vector<CameraEyes> eyesOfDisparities(const DatasetView& dataset, const std::string& format)
+{
+  if (!dataset.has("disparity"))
+  {
+    return eyesOf(dataset);
+  }
+  const std::vector<std::string> partners = dataset.disparityPartners();
+  /// The first of the camera's pictures whose disparities are to another one.
+  const auto stranger = [&](const std::string& camera, const std::string& other) -> const DatasetShot*
+  {
+    const std::vector<const DatasetShot*> shots = dataset.shotsOf(camera);
+    const auto found = std::find_if(shots.begin(), shots.end(),
+      [&](const DatasetShot* shot)
+      { return partners[shot->index] != other && dataset.shot(other, shot->frame()) != nullptr; });
+    return found == shots.end() ? nullptr : *found;
+  };
+  std::vector<RectifiedPair> pairs;
+  std::string refusal;
+  for (const RectifiedPair& pair : dataset.rectifiedPairs())
+  {
+    const DatasetShot* const left = stranger(pair.left, pair.right);
+    const DatasetShot* const one = left != nullptr ? left : stranger(pair.right, pair.left);
+    if (one == nullptr)
+    {
+      pairs.push_back(pair);
+    }
+    else if (refusal.empty())
+    {
+      refusal = format + ": the disparities of camera " + quoted(one->name()) + " are those to " +
+                quoted(partners[one->index]) + ", not to " + quoted(left != nullptr ? pair.right : pair.left) +
+                "; a run of these two alone (render --cameras) has theirs";
+    }
+  }
+  if (pairs.empty() && !refusal.empty())
+  {
+    throw UsageError(refusal);
+  }
+  return eyesOf(dataset, std::move(pairs));
+}
+
+void requireOneMatrix(const DatasetView& dataset, const CameraEyes& pair, const std::string& format)
+{
+  for (const DatasetShot* const shot : dataset.shotsOf(pair.left))
+  {
+    const DatasetShot* const right = dataset.shot(pair.right, shot->frame());
+    const double cx = shot->camera.K(0, 2);
+    if (right != nullptr && std::abs(right->camera.K(0, 2) - cx) > 1e-9 * shot->camera.K(0, 0))
+    {
+      throw UsageError(format + ": camera " + quoted(pair.right) + " has another cx than " + quoted(pair.left) + " (" +
+                       shortest(right->camera.K(0, 2)) + " and " + shortest(cx) + "), which the format cannot say");
+    }
+  }
+}
 
 std::vector<CameraEyes> pairsOf(const DatasetView& dataset, const std::string& format)
 {
   std::vector<CameraEyes> pairs;
-  for (const CameraEyes& one : eyesOf(dataset))
+  for (const CameraEyes& one : eyesOfDisparities(dataset, format))
   {
     if (!one.right.empty())
     {

@@ -303,20 +303,33 @@ struct Partner
   double baseline = 0; ///< its place on the x axis of the other
 };
 
-/// The nearest camera with which `camera` is a rectified pair at a frame.
+/// The nearest camera with which `camera` is a rectified pair at a frame; of several the first by name. One of the run,
+/// where it has one.
 std::optional<Partner> rectifiedPartner(const WorkPlan& plan, const Stage& stage, std::size_t camera, int frame)
 {
   const auto view = [&](std::size_t c) { return stage.view(c, frame, plan.request.width, plan.request.height); };
   const View own = view(camera);
+  const std::vector<CameraDescription>& cameras = stage.description().cameras;
+  const std::vector<std::string>& run = plan.request.cameras;
   double nearest = std::numeric_limits<double>::infinity();
+  bool nearestRuns = false;
   std::optional<Partner> partner;
-  const std::size_t cameras = stage.description().cameras.size();
-  for (std::size_t c = 0; c < cameras; ++c)
+  for (std::size_t c = 0; c < cameras.size(); ++c)
   {
     const double baseline = c == camera ? 0 : rectifiedBaseline(own, view(c));
-    if (baseline != 0 && std::abs(baseline) < nearest * (1 - 1e-9))
+    if (baseline == 0)
     {
-      nearest = std::abs(baseline);
+      continue;
+    }
+    const bool runs = run.empty() || std::find(run.begin(), run.end(), cameras[c].name) != run.end();
+    const double away = std::abs(baseline);
+    const bool asNear = partner && std::abs(away - nearest) <= nearest * 1e-9;
+    if (!partner || (runs != nearestRuns ? runs
+                      : asNear           ? cameras[c].name < cameras[partner->camera].name
+                                         : away < nearest))
+    {
+      nearest = away;
+      nearestRuns = runs;
       partner = Partner{ c, baseline };
     }
   }

@@ -139,6 +139,10 @@ Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks, N
 GeneratorResult Run::execute()
 {
   const GeneratorRequest& request = this->Request;
+  if (!request.block)
+  {
+    requireOutsideDatasets(request.folder);
+  }
   FrameSourceOptions options = sourceOptions(this->Plan);
   if (!drawsItself(request))
   {

@@ -58,7 +58,7 @@ public:
     for (const RealKey& key : realKeys)
     {
       const std::string layer = *key.layer ? key.layer : exported::depth().of(this->Options);
-      if (!this->Dataset.file(*eye.shot, layer).empty())
+      if (!this->Dataset.file(*eye.shot, layer).empty() && this->leadsToOne(eye, layer))
       {
         this->addReals(eye, key.key + eye.suffix, layer, key.isLength);
       }
@@ -80,6 +80,17 @@ public:
 
 private:
   using Type = Hdf5File::Type;
+
+  /// Whether the picture that a layer's values lead to is in the export, too.
+  bool leadsToOne(const Hdf5Eye& eye, const std::string& layer) const
+  {
+    if (layer == "disparity")
+    {
+      return !eye.suffix.empty();
+    }
+    const int step = layer == "flow_forward" ? 1 : layer == "flow_backward" ? -1 : 0;
+    return this->Dataset.shot(eye.shot->name(), eye.shot->frame() + step) != nullptr;
+  }
 
   void addColors(const Hdf5Eye& eye)
   {
@@ -241,7 +252,7 @@ public:
       { "axes", "camera_pose: x right, y down, z forward; normals: x right, y up, z back, (n + 1) / 2" },
       { "nothing", "depth, distance: 1e10; normals: 0.5; nocs: 0; flow, disparity: NaN" }, { "unit", "metres" },
       { "metres_per_unit", shortest(dataset.metres()) } };
-    const std::vector<CameraEyes> cameras = eyesOf(dataset);
+    const std::vector<CameraEyes> cameras = eyesOfDisparities(dataset, hdf5Name);
     for (const CameraEyes& eyes : cameras)
     {
       const std::string folder = cameras.size() == 1 ? "" : eyes.name + '/';

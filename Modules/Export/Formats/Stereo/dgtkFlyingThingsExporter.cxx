@@ -153,6 +153,7 @@ public:
     requireConsecutive(dataset, flyingthingsName);
     for (const CameraEyes& eyes : pairsOf(dataset, flyingthingsName))
     {
+      requireOneMatrix(dataset, eyes, flyingthingsName);
       for (const std::string& camera : { eyes.left, eyes.right })
       {
         for (const DatasetShot* shot : dataset.shotsOf(camera))

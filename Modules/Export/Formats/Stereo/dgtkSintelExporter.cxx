@@ -59,6 +59,10 @@ public:
     requireEverywhere(dataset, exported::color().of(options), sintelName, { "png" });
     for (const Scene& scene : scenesOf(dataset))
     {
+      if (!scene.right.empty() && dataset.has("disparity"))
+      {
+        requireOneMatrix(dataset, { dataset.shots()[scene.shots.front()].name(), scene.right, "" }, sintelName);
+      }
       for (const std::uint32_t i : scene.shots)
       {
         const DatasetShot& shot = dataset.shots()[i];
@@ -96,7 +100,7 @@ private:
   {
     std::vector<Scene> scenes;
     SafeNames names;
-    const std::vector<CameraEyes> all = eyesOf(dataset);
+    const std::vector<CameraEyes> all = eyesOfDisparities(dataset, sintelName);
     for (const CameraEyes& eyes : all)
     {
       names.of(eyes.left);

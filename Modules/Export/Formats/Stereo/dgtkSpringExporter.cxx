@@ -134,6 +134,7 @@ public:
     dataset.metres();
     for (const CameraEyes& pair : pairsOf(dataset, springName))
     {
+      requireOneMatrix(dataset, pair, springName);
       for (const std::string& camera : { pair.left, pair.right })
       {
         for (const DatasetShot* shot : dataset.shotsOf(camera))

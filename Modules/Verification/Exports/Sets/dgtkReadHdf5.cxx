@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 // BlenderProc's container: blenderproc/python/writer/WriterUtility.py and renderer/RendererUtility.py.
 
@@ -60,7 +61,8 @@ public:
   {
   }
 
-  void eye(const ExportedName& picture, const std::string& suffix)
+  /// `shown` are the cameras and frames of all pictures.
+  void eye(const ExportedName& picture, const std::string& suffix, const std::set<std::pair<std::string, int>>& shown)
   {
     const ExportedFrom& source = this->Judge.source();
     std::set<double> seen;
@@ -69,7 +71,10 @@ public:
       const std::string layer = std::string(key.name) == "colors"  ? requested(source, "color")
                                 : std::string(key.name) == "depth" ? requested(source, "depth")
                                                                    : key.layer;
-      const bool has = !source.file(picture.camera, picture.frame, layer).empty();
+      const int step = layer == "flow_forward" ? 1 : layer == "flow_backward" ? -1 : 0;
+      const bool leads =
+        layer == "disparity" ? !suffix.empty() : shown.count({ picture.camera, picture.frame + step }) > 0;
+      const bool has = leads && !source.file(picture.camera, picture.frame, layer).empty();
       const Hdf5Dataset* found = this->take(key.name + suffix, has);
       if (found && has)
       {
@@ -229,6 +234,11 @@ private:
 
 void readHdf5Frames(ExportJudge& judge)
 {
+  std::set<std::pair<std::string, int>> shown;
+  for (const ExportedName& one : judge.source().record().names)
+  {
+    shown.emplace(one.camera, one.frame);
+  }
   std::size_t pictures = 0;
   for (const ExportedFile* one : filesIn(judge.source(), "", "hdf5"))
   {
@@ -238,7 +248,7 @@ void readHdf5Frames(ExportJudge& judge)
     {
       if (const ExportedName* picture = judge.source().named(file + suffix))
       {
-        reader.eye(*picture, suffix);
+        reader.eye(*picture, suffix, shown);
         ++pictures;
       }
     }
