@@ -93,7 +93,8 @@ int compareFolders(const std::string& a, const std::string& b, const Tolerances&
   for (const std::string& folder : { a, b })
   {
     std::error_code code;
-    if (!tolerances.empty() && !std::filesystem::exists(folder + '/' + manifestName, code) && !code)
+    if (!tolerances.empty() && std::filesystem::is_directory(folder, code) &&
+        !std::filesystem::exists(folder + '/' + manifestName, code) && !code)
     {
       throw UsageError(std::string(toleranceOption) + ": is for datasets, and " + folder + " has no " + manifestName);
     }

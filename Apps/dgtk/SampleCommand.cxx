@@ -5,6 +5,7 @@
 
 #include "dgtkAgainError.h"
 #include "dgtkError.h"
+#include "dgtkFolderContents.h"
 #include "dgtkSampleRun.h"
 #include "dgtkSampler.h"
 
@@ -45,6 +46,7 @@ SampleRequest parseSampleRequest(const Arguments& arguments)
   {
     throw UsageError("sample needs numbers of samples and a folder for them: --samples A:B -o DIR");
   }
+  requireOutsideDatasets(request.folder);
   parseSamples(arguments.text("--samples"), request.first, request.last);
   if (arguments.has("--seed"))
   {

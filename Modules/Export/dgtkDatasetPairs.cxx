@@ -13,25 +13,28 @@ namespace dgtk
 
 namespace
 {
-bool isSame(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b, double scale)
+/// Lengths between cameras are as exact as the places that they are differences of.
+double roundingBetween(const CameraRecord& a, const CameraRecord& b)
 {
-  constexpr double rounding = 1e-9;
-  return (a - b).cwiseAbs().maxCoeff() <= rounding * std::max(scale, 1.0);
+  return 4 * std::numeric_limits<double>::epsilon() * (a.t.norm() + b.t.norm());
 }
 
-/// The baseline of a left and a right camera at one frame, when they are rectified.
+/// The baseline of a left and a right camera at one frame, when they are rectified: as the layer `disparity` has it.
 std::optional<double> baselineOf(const CameraRecord& left, const CameraRecord& right)
 {
-  const bool like = isPinhole(left) && isPinhole(right) && left.width == right.width && left.height == right.height;
-  if (!like || !isSame(left.R, right.R, 1) || !isSame(left.K.leftCols(2), right.K.leftCols(2), left.K(0, 0)) ||
-      std::abs(left.K(1, 2) - right.K(1, 2)) > 1e-9 * left.K(1, 1))
+  constexpr double same = 1e-9;
+  if (!isPinhole(left) || !isPinhole(right) || left.width != right.width || left.height != right.height)
   {
     return std::nullopt;
   }
+  Eigen::Matrix3d K = left.K - right.K;
+  K(0, 2) = 0;
   const Eigen::Vector3d apart = left.t - right.t; // the right centre in the left camera's axes
-  const double size = std::max({ left.t.norm(), right.t.norm(), 1e-300 });
-  const bool along = std::abs(apart.y()) <= 1e-9 * size && std::abs(apart.z()) <= 1e-9 * size;
-  return along && apart.x() > 1e-9 * size ? std::optional<double>(apart.x()) : std::nullopt;
+  const double rounding = roundingBetween(left, right);
+  const bool rectified = K.cwiseAbs().maxCoeff() <= same * left.K(0, 0) &&
+                         (left.R - right.R).cwiseAbs().maxCoeff() <= same && apart.x() > rounding &&
+                         apart.tail<2>().cwiseAbs().maxCoeff() <= same * apart.x() + rounding;
+  return rectified ? std::optional<double>(apart.x()) : std::nullopt;
 }
 
 /// The same at the last frame of the left camera, when they are rectified at all of them.
@@ -87,12 +90,12 @@ std::vector<std::string> DatasetView::disparityPartners() const
   for (const DatasetShot& shot : this->Shots)
   {
     std::string partner;
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = 0;
     for (const CameraRecord* const other : at[shot.frame()])
     {
       const std::optional<double> right = baselineOf(shot.camera, *other);
       const std::optional<double> baseline = right ? right : baselineOf(*other, shot.camera);
-      if (baseline && *baseline < nearest * (1 - 1e-9))
+      if (baseline && (partner.empty() || *baseline < nearest * (1 - 1e-9) - 2 * roundingBetween(shot.camera, *other)))
       {
         nearest = *baseline;
         partner = other->name;

@@ -334,6 +334,7 @@ ExportResult exportShard(const ExportRequest& request, const RunShard& shard, co
   {
     throw UsageError("a share of an export replaces nothing: others may be at work in its folder");
   }
+  requireOutsideDatasets(request.folder);
   const std::vector<std::string> scenes = scenesApart(request);
   return scenes.empty() ? shardOfItems(request, shard, callbacks) : shardOfScenes(request, scenes, shard, callbacks);
 }

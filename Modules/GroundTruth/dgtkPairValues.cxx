@@ -50,6 +50,12 @@ void pairRows(const PixelRect& rect, const double* pixels, PairValue value, doub
   }
 }
 
+double baselineRounding(const View& a, const View& b)
+{
+  return 4 * std::numeric_limits<double>::epsilon() *
+         (a.camera_from_world.translation.norm() + b.camera_from_world.translation.norm());
+}
+
 double rectifiedBaseline(const View& a, const View& b)
 {
   const auto linear = [](const View& view) { return view.instants ? std::nullopt : view.model->linear(); };
@@ -67,8 +73,7 @@ double rectifiedBaseline(const View& a, const View& b)
   // centre of b in the frame of a
   const Eigen::Vector3d centre =
     a.camera_from_world * Eigen::Vector3d(-b.camera_from_world.rotation.transpose() * b.camera_from_world.translation);
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
-                          (a.camera_from_world.translation.norm() + b.camera_from_world.translation.norm());
+  const double rounding = baselineRounding(a, b);
   const bool rectified = difference.cwiseAbs().maxCoeff() <= same * own->K(0, 0) &&
                          rotation.cwiseAbs().maxCoeff() <= same && std::abs(centre.x()) > rounding &&
                          centre.tail<2>().cwiseAbs().maxCoeff() <= same * std::abs(centre.x()) + rounding;

@@ -32,6 +32,8 @@ DGTKGROUNDTRUTH_EXPORT void pairRows(
 /// same K but for the column of the principal point, one orientation, displaced along x only (to 1e-9, and the rounding
 /// of their places). Otherwise 0.
 DGTKGROUNDTRUTH_EXPORT double rectifiedBaseline(const View& a, const View& b);
+/// How far the rounding of their places may move one centre in the axes of the other.
+DGTKGROUNDTRUTH_EXPORT double baselineRounding(const View& a, const View& b);
 
 } // namespace dgtk
 

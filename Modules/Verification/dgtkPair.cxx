@@ -18,6 +18,11 @@ namespace
 /// Part by which K, rotation and displacement of a rectified pair may differ.
 constexpr double rectifiedTolerance = 1e-9;
 
+double roundingBetween(const Eye& a, const Eye& b)
+{
+  return 4 * std::numeric_limits<double>::epsilon() * (a.record().t.norm() + b.record().t.norm());
+}
+
 /// Displacement of camera b along the x axis of camera a; 0 unless they differ in nothing else but cx.
 double rectifiedBaseline(const Eye& a, const Eye& b)
 {
@@ -28,7 +33,7 @@ double rectifiedBaseline(const Eye& a, const Eye& b)
   Eigen::Matrix3d K = a.record().K - b.record().K;
   K(0, 2) = 0;
   const Eigen::Vector3d centre = a.toCamera(b.toWorld(Eigen::Vector3d::Zero()));
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * (a.record().t.norm() + b.record().t.norm());
+  const double rounding = roundingBetween(a, b);
   const bool same = K.cwiseAbs().maxCoeff() <= rectifiedTolerance * a.record().K(0, 0) &&
                     (a.record().R - b.record().R).cwiseAbs().maxCoeff() <= rectifiedTolerance &&
                     std::abs(centre.x()) > rounding &&
@@ -41,13 +46,14 @@ std::optional<Pair> nearestPair(Picture& picture, const std::vector<std::string>
 {
   Dataset& dataset = picture.dataset();
   std::optional<Pair> best;
-  double nearest = infinite;
+  double nearest = 0;
   for (const std::string& name : cameras)
   {
     const std::optional<Eye> eye =
       name == picture.camera() ? std::nullopt : dataset.eye(name, picture.frame(), picture.eye().record());
     const double baseline = eye ? rectifiedBaseline(picture.eye(), *eye) : 0;
-    if (baseline != 0 && std::abs(baseline) < nearest * (1 - rectifiedTolerance))
+    if (baseline != 0 &&
+        (!best || std::abs(baseline) < nearest * (1 - rectifiedTolerance) - 2 * roundingBetween(picture.eye(), *eye)))
     {
       nearest = std::abs(baseline);
       best = Pair{ "disparity", baseline > 0 ? PairKind::FromLeft : PairKind::FromRight, name, picture.frame(), nullptr,

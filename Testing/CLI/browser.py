@@ -45,6 +45,7 @@ class Browser:
         self.session = self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Network", "Log"):
             self.ask(domain + ".enable")
+        self.ask("Page.setLifecycleEventsEnabled", enabled=True)
         self.resize(width, height)
         self.ask("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
@@ -54,9 +55,11 @@ class Browser:
         self.session = None
         context = self.ask("Target.createBrowserContext")["browserContextId"]
         self._show(self.ask("Target.createTarget", url="about:blank", browserContextId=context)["targetId"], width, height, dark)
-        yield self
-        self.session = None
-        self.ask("Target.disposeBrowserContext", browserContextId=context)
+        try:
+            yield self
+        finally:
+            self.session = None
+            self.ask("Target.disposeBrowserContext", browserContextId=context)
 
     def __enter__(self):
         return self
@@ -85,7 +88,7 @@ class Browser:
         if message.get("sessionId") != self.session:
             return  # of a page before
         method, values = message.get("method"), message.get("params", {})
-        self.events.add(method)
+        self.events.add((values["name"], values["loaderId"]) if method == "Page.lifecycleEvent" else method)
         if method == "Network.requestWillBeSent":
             self.requests.append(values["request"]["url"])
         elif method == "Runtime.exceptionThrown":
@@ -114,9 +117,8 @@ class Browser:
 
     def open(self, path):
         """Loads a file to its end."""
-        self.events.discard("Page.loadEventFired")
-        self.ask("Page.navigate", url="file://" + os.path.abspath(path))
-        while "Page.loadEventFired" not in self.events:
+        loader = self.ask("Page.navigate", url="file://" + os.path.abspath(path))["loaderId"]
+        while ("load", loader) not in self.events:
             self._note(self._message())
 
     def evaluate(self, expression):

@@ -21,7 +21,7 @@ def run(*words, **options):
 def make(folder, versions=True, **settings):
     """The packages of the build, made in a folder, with settings of CPack: name -> path. Without versions, libraries ask for none."""
     os.makedirs(os.path.join(folder, "bin"))
-    scripts = {"words": 'shift 2\nexec env "$@"\n'}  # as CPack's `cmake -E env WORDS`, one a file, which takes longer than all WORDS
+    scripts = {"words": '[ "$1 $2" = "-E env" ] || exec cmake "$@"\nshift 2\nexec env "$@"\n'}  # as CPack's `cmake -E env WORDS`, one a file, which takes longer than all WORDS
     if not versions:
         own = "/usr/bin/dpkg-shlibdeps"
         scripts["dpkg-shlibdeps"] = f'[ $# -gt 1 ] || exec {own} "$@"\nexec /usr/bin/python3 "{os.path.dirname(__file__)}/dependencies.py" "$@"\n'

@@ -76,8 +76,8 @@ class FlatIds(ManyCase):
 
         `cameras`: of each of the folders that the run makes, below `out`.
         """
-        command = ("render", scenes, "--quiet", "--visibility", "ray", "--pov-flat-ids", "--threads", WORKERS, "--frames", frame, *options)
         shares = range(WORKERS if len(cameras) > 1 else 1)
+        command = ("render", scenes, "--quiet", "--visibility", "ray", "--pov-flat-ids", "--threads", WORKERS // len(shares), "--frames", frame, *options)
         with ThreadPoolExecutor(len(shares)) as pool:
             list(pool.map(lambda share: self.dgtk(*command, "-o", self.path(out), "--layers", "color,objects", "--renderer", "povray",
                                                   *(("--shard", f"{share}/{len(shares)}") if len(shares) > 1 else ())), shares))

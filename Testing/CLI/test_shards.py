@@ -47,7 +47,7 @@ class Shards(ManyCase):
     def test_pictures_of_one_scene(self):
         """In any order, by any number of processes, some twice; a lost part is named, and made again."""
         whole = self.path("whole")
-        self.dgtk("render", DEMO, "-o", whole, *OPTIONS)
+        self.alone("render", DEMO, "-o", whole, *OPTIONS)
         order = list(range(8))
         random.Random(SEED).shuffle(order)
         for index in order[:-1] + order[:2]:
@@ -109,7 +109,7 @@ class Shards(ManyCase):
     def test_packed_inputs(self):
         """What all parts would have alike is in the first one."""
         options = ("--layers", "depth", "--size", "32x24", "--quiet", "--pack", "--models")
-        self.dgtk("render", DEMO, "-o", self.path("whole"), *options)
+        self.alone("render", DEMO, "-o", self.path("whole"), *options)
         for index in range(2):
             self.shard(DEMO, self.path("parts"), index, 2, options)
         common = {"cameras.json", "objects.json", "poses.json", "scene.json", "inputs", "models"}
@@ -130,7 +130,7 @@ class Shards(ManyCase):
             {"objects": [{"model": "models/seen.obj"}, {"model": "quad.obj", "materials": {"*": {"texture": "models/../grey.pgm"}}}],
              "keyFrames": [0, 3], "cameras": [{"name": "c", "eye": [0, 0, 6], "lookAt": [0, 0, 0]}]}))
         options = ("--layers", "color", "--size", "16x12", "--quiet")
-        self.dgtk("render", self.path("scene.json"), "-o", self.path("whole"), *options)
+        self.alone("render", self.path("scene.json"), "-o", self.path("whole"), *options)
         self.shard(self.path("scene.json"), self.path("parts"), 0, 1, options)
         self.dgtk("merge", self.path("parts"))
         self.assert_same_files(self.path("whole"), self.path("parts"))

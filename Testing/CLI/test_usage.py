@@ -70,6 +70,13 @@ class Usage(ManyCase):
         inside = os.path.join(dataset, "left", "more")
         self.refused("render", SCENE, "-o", inside, "--layers", "depth", status=2, says=("lies in the dataset in", "dataset;"))
         self.refused("export", dataset, "-o", inside, "--format", "tum", status=2, says="lies in the dataset in")
+        self.refused("render", SCENE, "-o", inside, "--layers", "depth", "--shard", "0/2", status=2, says="lies in the dataset in")
+        self.refused("export", dataset, "-o", inside, "--format", "tum", "--shard", "0/2", status=2, says="lies in the dataset in")
+        os.mkdir(self.path("scenes"))
+        self.write("scenes/one.json", json.dumps({"cameras": [{}]}))
+        self.refused("render", self.path("scenes"), "-o", inside, "--layers", "depth", status=2, says="lies in the dataset in")
+        recipe = os.path.join(SOURCE, "Data", "Recipes", "turntable.json")
+        self.refused("sample", recipe, "-o", inside, "--samples", "0:0", status=2, says="lies in the dataset in")
         self.dgtk("verify", dataset)
 
     def test_closed_streams_are_no_files(self):

@@ -249,12 +249,13 @@ class Spring(datasets.ExportCase):
         self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--image-format", "jpg", status=2, says="PNG")
         self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--cameras", LEFT, status=2, says="no two cameras")
         document = load_json(self.path("scene", "stereo.json"))
-        for camera, cx in zip(document["cameras"], (48, 44.5)):
+        for camera, cx in zip(document["cameras"], (48, 47.5)):
             del camera["fovY"]
             camera["K"] = [[100, 0, cx], [0, 100, 36], [0, 0, 1]]
         shifted = self.render(self.write(self.path("scene", "shifted.json"), json.dumps(document)), self.LAYERS + ",depth,objects")
         for form in ("spring", "sintel", "flyingthings"):
-            self.refused("export", shifted, "--format", form, "-o", self.path("no"), status=2, says="has another cx than 'left eye' (44.5 and 48)")
+            self.refused("export", shifted, "--format", form, "-o", self.path("no"), status=2, says="has another cx than 'left eye' (47.5 and 48)")
+        self.export(self.render(self.path("scene", "shifted.json"), "color,depth,objects,flow_forward"), "sintel")
         self.assertFalse(os.path.exists(self.path("no")))
 
 

@@ -259,32 +259,70 @@ class OfThreeCameras(datasets.ExportCase):
         self.write(self.file, json.dumps(document))
 
     def baseline(self, dataset, *options):
-        """Of the only pair, in metres, which must give the depth of the left camera's pixels."""
+        """Of the only pair, in metres, which must give the depth of the left camera's pixels; and the two cameras."""
         folder, record = self.export(dataset, "middlebury", *options)
-        left, _ = [one["camera"] for one in record["names"]]
+        left, right = [one["camera"] for one in record["names"]]
         scene, = [os.path.join(folder, name) for name in os.listdir(folder) if name != "export.json"]
         numbers, found = calib(os.path.join(scene, "calib.txt")), read_pfm(os.path.join(scene, "disp0GT.pfm"))
         depth = layer_of(dataset, "depth", left, 0) * 1000
         self.assertLess(np.abs(numbers["baseline"] * numbers["cam0"][0, 0] / (found + numbers["doffs"]) / depth - 1)[found < np.inf].max(), 1e-6)
-        return numbers["baseline"] / 1000
+        return round(numbers["baseline"] / 1000, 9), left, right
+
+    def placed(self, places, layers="color,disparity,depth", *options):
+        """A dataset of cameras at these places beside one another."""
+        document = load_json(self.file)
+        first = document["cameras"][0]
+        document["cameras"] = [{**first, "name": name, "eye": [x, y, 4.5], "lookAt": [x, y, 0]} for name, x, y in places]
+        for item in document["objects"]:
+            item["position"][0] += places[0][1]
+        return self.render(self.write(self.path("scene", "placed.json"), json.dumps(document)), layers, *options)
 
     def test_a_run_of_two_has_the_disparities_of_these(self):
         dataset = self.render(self.file, "color,disparity,depth", "--cameras", self.NAMES)
         self.dgtk("verify", dataset)
-        self.assertAlmostEqual(self.baseline(dataset), 0.12)
+        self.assertEqual(self.baseline(dataset), (0.12, LEFT, RIGHT))
 
     def test_pairs_are_of_cameras_whose_disparities_are_to_each_other(self):
         dataset = self.render(self.file, "color,disparity,depth,objects,classes")
         self.dgtk("verify", dataset)
-        self.assertAlmostEqual(self.baseline(dataset), 0.06)  # of `middle` and, of those as near, the first by name
-        for form in ("middlebury", "hdf5"):
-            self.refused("export", dataset, "--format", form, "-o", self.path("no"), "--cameras", self.NAMES, status=2,
-                         says=("disparities of camera 'left eye' are those to 'middle', not to 'right.eye'", "--cameras"))
-        folder, record = self.export(dataset, "hdf5")
-        self.assertEqual(sorted((one["camera"], one["name"]) for one in record["names"]),
-                         [("left eye", "left_eye/0.hdf5_0"), ("middle", "left_eye/0.hdf5_1"), ("right.eye", "right_eye/0.hdf5")])
-        with h5py.File(os.path.join(folder, "right_eye", "0.hdf5"), "r") as file:
-            self.assertNotIn("disparity", file)
+        self.assertEqual(self.baseline(dataset), (0.06, LEFT, "middle"))  # of those as near the first by name
+        self.refused("export", dataset, "--format", "middlebury", "-o", self.path("no"), "--cameras", self.NAMES, status=2,
+                     says=("disparities of camera 'left eye' at frame 0 are those to 'middle', not to 'right.eye'", "--cameras"))
+        for options, names in (((), [(LEFT, "left_eye/0.hdf5_0"), ("middle", "left_eye/0.hdf5_1"), (RIGHT, "right_eye/0.hdf5")]),
+                               (("--cameras", self.NAMES), [(LEFT, "left_eye/0.hdf5"), (RIGHT, "right_eye/0.hdf5")])):
+            folder, record = self.export(dataset, "hdf5", *options)
+            self.assertEqual(sorted((one["camera"], one["name"]) for one in record["names"]), names)
+            with h5py.File(os.path.join(folder, "right_eye", "0.hdf5"), "r") as file:
+                self.assertNotIn("disparity", file)
+        plain = self.render(self.file, "color,depth,objects,classes")  # without disparities any two are a pair
+        _, record = self.export(plain, "hdf5", "--cameras", self.NAMES)
+        self.assertEqual([one["name"] for one in record["names"]], ["0.hdf5_0", "0.hdf5_1"])
+
+    def test_the_right_camera_may_be_the_one_that_is_nearer_to_another(self):
+        dataset = self.placed([("a", 0, 0.2), ("b", 0.1, 0.2), ("c", 0.15, 0.2)])
+        self.refused("export", dataset, "--format", "middlebury", "-o", self.path("no"), "--cameras", "a,b", status=2,
+                     says="disparities of camera 'b' at frame 0 are those to 'c', not to 'a'")
+        self.assertEqual(self.baseline(dataset), (0.05, "b", "c"))
+
+    def test_places_far_from_the_origin(self):
+        """Ties, and what is beside the x axis, are to the rounding of the places."""
+        for shift in (0, 0.58, 1e4, 4.3e6 + 0.1):
+            dataset = self.placed([("b", shift, 0.2), ("d", shift - 0.12, 0.2), ("c", shift + 0.12, 0.2), ("a", shift + 0.05, 0.2 + 5e-6)])
+            self.assertEqual(sorted(os.listdir(os.path.join(dataset, "a"))), ["color", "depth"])
+            self.dgtk("verify", dataset)
+            self.assertEqual(self.baseline(dataset)[1:], ("b", "c"))
+
+    def test_scenes_of_a_folder(self):
+        """Their cameras are called SCENE/CAMERA: one that is not exported has such a name, too."""
+        document = load_json(self.file)
+        document["cameras"][2]["name"] = "A"  # before the scene's name
+        for name in ("one", "two"):
+            self.write(os.path.join("scene", name + ".json"), json.dumps(document))
+        os.remove(self.file)
+        folder = self.path("set")
+        self.dgtk("render", self.path("scene"), "-o", folder, "--layers", "color,disparity,depth", "--quiet")
+        self.refused("export", folder, "--format", "kitti2015", "-o", self.path("no"), "--cameras", self.NAMES, status=2, says="lacks layers")
+        self.refused("export", folder, "--format", "middlebury", "-o", self.path("no"), "--cameras", self.NAMES, status=2, says="A'")
 
 
 if __name__ == "__main__":

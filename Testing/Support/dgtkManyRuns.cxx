@@ -19,6 +19,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -82,7 +83,10 @@ int run(char* program, std::string& words, char** environment)
     arguments.push_back(&words[at]);
   }
   arguments.push_back(nullptr);
+  rlimit files = {};
+  getrlimit(RLIMIT_NOFILE, &files); // which a run may raise, for itself
   const int status = mainOfProgram(static_cast<int>(arguments.size()) - 1, arguments.data(), environment);
+  setrlimit(RLIMIT_NOFILE, &files);
   std::cout.flush();
   std::fflush(nullptr);
   return status;

@@ -8,8 +8,9 @@ endif()
 add_link_options(-Wl,--as-needed)
 # A start is the linker's work for some twenty libraries: what they call of their own needs no lookup, and they have fewer parts to map.
 # gold makes no more by itself, and links in a quarter of the time; it looks for what shared libraries lack where they name nothing.
-find_program(GOLD_PROGRAM ld.gold)
-if(GOLD_PROGRAM AND NOT DGTK_SANITIZE)
+include(CheckLinkerFlag)
+check_linker_flag(CXX -fuse-ld=gold DGTK_HAS_GOLD)
+if(DGTK_HAS_GOLD AND NOT DGTK_SANITIZE)
   add_link_options(-fuse-ld=gold -Wl,--allow-shlib-undefined)
 else()
   add_link_options(-Wl,-z,noseparate-code)

@@ -134,42 +134,40 @@ std::vector<CameraEyes> eyesOf(const DatasetView& dataset, std::vector<Rectified
 
 std::vector<CameraEyes> eyesOf(const DatasetView& dataset) { return eyesOf(dataset, dataset.rectifiedPairs()); }
 
-std::vector<CameraEyes> eyesOfDisparities(const DatasetView& dataset, const std::string& format)
+namespace
 {
-  if (!dataset.has("disparity"))
+/// Of a pair: a picture whose disparities are to another camera, and which one it should be; null for none.
+struct Stranger
+{
+  const DatasetShot* shot = nullptr;
+  std::string meant;
+};
+
+Stranger strangerOf(const DatasetView& dataset, const RectifiedPair& pair, const std::vector<std::string>& partners)
+{
+  for (const auto& [camera, other] : { std::tie(pair.left, pair.right), std::tie(pair.right, pair.left) })
   {
-    return eyesOf(dataset);
-  }
-  const std::vector<std::string> partners = dataset.disparityPartners();
-  /// The first of the camera's pictures whose disparities are to another one.
-  const auto stranger = [&](const std::string& camera, const std::string& other) -> const DatasetShot*
-  {
-    const std::vector<const DatasetShot*> shots = dataset.shotsOf(camera);
-    const auto found = std::find_if(shots.begin(), shots.end(),
-      [&](const DatasetShot* shot)
-      { return partners[shot->index] != other && dataset.shot(other, shot->frame()) != nullptr; });
-    return found == shots.end() ? nullptr : *found;
-  };
-  std::vector<RectifiedPair> pairs;
-  std::string refusal;
-  for (const RectifiedPair& pair : dataset.rectifiedPairs())
-  {
-    const DatasetShot* const left = stranger(pair.left, pair.right);
-    const DatasetShot* const one = left != nullptr ? left : stranger(pair.right, pair.left);
-    if (one == nullptr)
+    for (const DatasetShot* const shot : dataset.shotsOf(camera))
     {
-      pairs.push_back(pair);
-    }
-    else if (refusal.empty())
-    {
-      refusal = format + ": the disparities of camera " + quoted(one->name()) + " are those to " +
-                quoted(partners[one->index]) + ", not to " + quoted(left != nullptr ? pair.right : pair.left) +
-                "; a run of these two alone (render --cameras) has theirs";
+      if (partners[shot->index] != other && dataset.shot(other, shot->frame()) != nullptr)
+      {
+        return { shot, other };
+      }
     }
   }
-  if (pairs.empty() && !refusal.empty())
+  return {};
+}
+} // namespace
+
+std::vector<CameraEyes> eyesOfDisparities(const DatasetView& dataset)
+{
+  std::vector<RectifiedPair> pairs = dataset.rectifiedPairs();
+  if (dataset.has("disparity"))
   {
-    throw UsageError(refusal);
+    const std::vector<std::string> partners = dataset.disparityPartners();
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                  [&](const RectifiedPair& pair) { return strangerOf(dataset, pair, partners).shot != nullptr; }),
+      pairs.end());
   }
   return eyesOf(dataset, std::move(pairs));
 }
@@ -191,12 +189,24 @@ void requireOneMatrix(const DatasetView& dataset, const CameraEyes& pair, const 
 std::vector<CameraEyes> pairsOf(const DatasetView& dataset, const std::string& format)
 {
   std::vector<CameraEyes> pairs;
-  for (const CameraEyes& one : eyesOfDisparities(dataset, format))
+  for (const CameraEyes& one : eyesOfDisparities(dataset))
   {
     if (!one.right.empty())
     {
       pairs.push_back(one);
     }
+  }
+  const std::vector<RectifiedPair> all = dataset.rectifiedPairs();
+  if (pairs.empty() && !all.empty())
+  {
+    const auto nearest = std::min_element(
+      all.begin(), all.end(), [](const RectifiedPair& a, const RectifiedPair& b) { return a.baseline < b.baseline; });
+    const std::vector<std::string> partners = dataset.disparityPartners();
+    const Stranger stranger = strangerOf(dataset, *nearest, partners);
+    throw UsageError(format + ": the disparities of camera " + quoted(stranger.shot->name()) + " at frame " +
+                     std::to_string(stranger.shot->frame()) + " are those to " +
+                     quoted(partners[stranger.shot->index]) + ", not to " + quoted(stranger.meant) +
+                     "; a run of these two alone (render --cameras) has theirs");
   }
   if (pairs.empty())
   {

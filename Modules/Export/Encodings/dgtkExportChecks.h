@@ -38,9 +38,8 @@ struct CameraEyes
 };
 /// Every camera once. A camera with several partners has the nearest one.
 std::vector<CameraEyes> eyesOf(const DatasetView& dataset);
-/// Pairs only of cameras whose disparities are those to each other, where the dataset has some. Throws where there are
-/// pairs, but none of such.
-std::vector<CameraEyes> eyesOfDisparities(const DatasetView& dataset, const std::string& format);
+/// Pairs only of cameras whose disparities are those to each other, where the dataset has some.
+std::vector<CameraEyes> eyesOfDisparities(const DatasetView& dataset);
 /// The format has one matrix for both cameras of a pair.
 void requireOneMatrix(const DatasetView& dataset, const CameraEyes& pair, const std::string& format);
 /// The same, pairs only; at least one.

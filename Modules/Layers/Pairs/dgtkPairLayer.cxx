@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -309,31 +309,32 @@ std::optional<Partner> rectifiedPartner(const WorkPlan& plan, const Stage& stage
 {
   const auto view = [&](std::size_t c) { return stage.view(c, frame, plan.request.width, plan.request.height); };
   const View own = view(camera);
-  const std::vector<CameraDescription>& cameras = stage.description().cameras;
-  const std::vector<std::string>& run = plan.request.cameras;
-  double nearest = std::numeric_limits<double>::infinity();
-  bool nearestRuns = false;
-  std::optional<Partner> partner;
-  for (std::size_t c = 0; c < cameras.size(); ++c)
+  std::map<std::string, std::size_t> cameras;
+  for (const CameraDescription& one : stage.description().cameras)
   {
-    const double baseline = c == camera ? 0 : rectifiedBaseline(own, view(c));
-    if (baseline == 0)
-    {
-      continue;
-    }
-    const bool runs = run.empty() || std::find(run.begin(), run.end(), cameras[c].name) != run.end();
-    const double away = std::abs(baseline);
-    const bool asNear = partner && std::abs(away - nearest) <= nearest * 1e-9;
-    if (!partner || (runs != nearestRuns ? runs
-                      : asNear           ? cameras[c].name < cameras[partner->camera].name
-                                         : away < nearest))
-    {
-      nearest = away;
-      nearestRuns = runs;
-      partner = Partner{ c, baseline };
-    }
+    cameras.emplace(one.name, cameras.size());
   }
-  return partner;
+  const auto nearestOf = [&](const std::set<std::string>& names)
+  {
+    std::optional<Partner> partner;
+    for (const auto& [name, c] : cameras)
+    {
+      if (c == camera || (!names.empty() && names.count(name) == 0))
+      {
+        continue;
+      }
+      const View other = view(c);
+      const double baseline = rectifiedBaseline(own, other);
+      if (baseline != 0 && (!partner || std::abs(baseline) <
+                                          std::abs(partner->baseline) * (1 - 1e-9) - 2 * baselineRounding(own, other)))
+      {
+        partner = Partner{ c, baseline };
+      }
+    }
+    return partner;
+  };
+  const std::optional<Partner> ran = nearestOf({ plan.request.cameras.begin(), plan.request.cameras.end() });
+  return ran ? ran : nearestOf({});
 }
 
 class DisparityLayer final : public PairLayer

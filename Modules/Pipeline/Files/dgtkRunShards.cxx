@@ -411,12 +411,14 @@ GeneratorResult generateShard(
     throw UsageError("a share of a run replaces nothing: others may be at work in its folder");
   }
   const GeneratorRequest own = sceneRequest(request);
+  requireOutsideDatasets(own.folder);
   return namesScenes(own) ? shardOfScenes(own, shard, callbacks) : shardOfPictures(own, shard, callbacks);
 }
 
 GeneratorResult generateScenes(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 {
   const GeneratorRequest own = sceneRequest(request);
+  requireOutsideDatasets(own.folder);
   const FolderScenes files = scenesIn(own.scene);
   const RunParts run = partsOf(own, files);
   const bool whole = isWhole(own.folder, run, own.replace);

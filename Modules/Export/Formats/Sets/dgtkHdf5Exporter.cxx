@@ -252,7 +252,7 @@ public:
       { "axes", "camera_pose: x right, y down, z forward; normals: x right, y up, z back, (n + 1) / 2" },
       { "nothing", "depth, distance: 1e10; normals: 0.5; nocs: 0; flow, disparity: NaN" }, { "unit", "metres" },
       { "metres_per_unit", shortest(dataset.metres()) } };
-    const std::vector<CameraEyes> cameras = eyesOfDisparities(dataset, hdf5Name);
+    const std::vector<CameraEyes> cameras = eyesOfDisparities(dataset);
     for (const CameraEyes& eyes : cameras)
     {
       const std::string folder = cameras.size() == 1 ? "" : eyes.name + '/';

@@ -100,7 +100,7 @@ private:
   {
     std::vector<Scene> scenes;
     SafeNames names;
-    const std::vector<CameraEyes> all = eyesOfDisparities(dataset, sintelName);
+    const std::vector<CameraEyes> all = eyesOfDisparities(dataset);
     for (const CameraEyes& eyes : all)
     {
       names.of(eyes.left);
