@@ -306,8 +306,9 @@ class OfThreeCameras(datasets.ExportCase):
 
     def test_places_far_from_the_origin(self):
         """Ties, and what is beside the x axis, are to the rounding of the places."""
-        for shift in (0, 0.58, 1e4, 4.3e6 + 0.1):
-            dataset = self.placed([("b", shift, 0.2), ("d", shift - 0.12, 0.2), ("c", shift + 0.12, 0.2), ("a", shift + 0.05, 0.2 + 5e-6)])
+        for whole in ("0", "10000", "4300000"):
+            left, middle, right, beside = (float(whole + part) for part in (".4", ".52", ".64", ".57"))
+            dataset = self.placed([("b", middle, 0.2), ("d", left, 0.2), ("c", right, 0.2), ("a", beside, 0.2 + 5e-6)])
             self.assertEqual(sorted(os.listdir(os.path.join(dataset, "a"))), ["color", "depth"])
             self.dgtk("verify", dataset)
             self.assertEqual(self.baseline(dataset)[1:], ("b", "c"))
