@@ -4,7 +4,6 @@
 #include "dgtkLongDocuments.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <limits>
 

@@ -287,7 +287,7 @@ class OfThreeCameras(datasets.ExportCase):
         self.dgtk("verify", dataset)
         self.assertEqual(self.baseline(dataset), (0.06, LEFT, "middle"))  # of those as near the first by name
         self.refused("export", dataset, "--format", "middlebury", "-o", self.path("no"), "--cameras", self.NAMES, status=2,
-                     says=("disparities of camera 'left eye' at frame 0 are those to 'middle', not to 'right.eye'", "--cameras"))
+                     says=("disparities of camera 'left eye' at frame 0 are those to 'middle', not to 'right.eye'", "a run of these two cameras alone"))
         for options, names in (((), [(LEFT, "left_eye/0.hdf5_0"), ("middle", "left_eye/0.hdf5_1"), (RIGHT, "right_eye/0.hdf5")]),
                                (("--cameras", self.NAMES), [(LEFT, "left_eye/0.hdf5"), (RIGHT, "right_eye/0.hdf5")])):
             folder, record = self.export(dataset, "hdf5", *options)
@@ -314,16 +314,16 @@ class OfThreeCameras(datasets.ExportCase):
             self.assertEqual(self.baseline(dataset)[1:], ("b", "c"))
 
     def test_scenes_of_a_folder(self):
-        """Their cameras are called SCENE/CAMERA: one that is not exported has such a name, too."""
+        """Each is judged by itself, by its own cameras, also those that are not exported."""
         document = load_json(self.file)
-        document["cameras"][2]["name"] = "A"  # before the scene's name
+        document["cameras"][2]["name"] = "A"
         for name in ("one", "two"):
             self.write(os.path.join("scene", name + ".json"), json.dumps(document))
         os.remove(self.file)
         folder = self.path("set")
         self.dgtk("render", self.path("scene"), "-o", folder, "--layers", "color,disparity,depth", "--quiet")
         self.refused("export", folder, "--format", "kitti2015", "-o", self.path("no"), "--cameras", self.NAMES, status=2, says="lacks layers")
-        self.refused("export", folder, "--format", "middlebury", "-o", self.path("no"), "--cameras", self.NAMES, status=2, says="A'")
+        self.refused("export", folder, "--format", "middlebury", "-o", self.path("no"), "--cameras", self.NAMES, status=2, says="are those to 'A', not to 'right.eye'")
 
 
 if __name__ == "__main__":

@@ -206,7 +206,7 @@ std::vector<CameraEyes> pairsOf(const DatasetView& dataset, const std::string& f
     throw UsageError(format + ": the disparities of camera " + quoted(stranger.shot->name()) + " at frame " +
                      std::to_string(stranger.shot->frame()) + " are those to " +
                      quoted(partners[stranger.shot->index]) + ", not to " + quoted(stranger.meant) +
-                     "; a run of these two alone (render --cameras) has theirs");
+                     "; a run of these two cameras alone has theirs");
   }
   if (pairs.empty())
   {
