@@ -230,7 +230,7 @@ private:
     }
     if (traitsOf(light.kind).aimed)
     {
-      for (const int frame : orAnyFrame(keyFramesOf({ &light.position, &light.target })))
+      for (const int frame : orAnyFrame(allFrames(keyFramesOf({ &light.position, &light.target }))))
       {
         if (light.position.at(frame) == light.target.at(frame))
         {

@@ -14,6 +14,7 @@ namespace dgtk
 namespace
 {
 constexpr double singlePrecision = 1e-7; // of the lengths that files have
+constexpr double mostRounding = 1e-3;    // of a round, however many came before
 
 std::shared_ptr<const Geometry> blended(const Geometry& a, const Geometry& b, double u)
 {
@@ -89,7 +90,8 @@ ModelMoment momentAt(
   if (description.loop && span > 0)
   {
     const double whole = sequenceSpan(model, animation, true);
-    const double rounding = sequence.length > 0 ? singlePrecision * std::max(1.0, position) : 0;
+    const double rounding =
+      sequence.length > 0 ? std::min(singlePrecision * std::max(1.0, position), whole * mostRounding) : 0;
     const double rest = std::fmod(position, whole);
     position = whole - rest < rounding ? 0 : rest;
     moment.wrap = std::max(0.0, position - span);

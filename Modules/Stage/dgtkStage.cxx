@@ -345,7 +345,7 @@ public:
   const std::vector<Motion>& motions() const override { return this->Motions; }
   Rigid3 poseAt(double frame) const override
   {
-    Rigid3 pose = dgtk::poseAt(this->Camera, frame);
+    Rigid3 pose = poseIn(this->Owner->description(), this->Camera, frame);
     pose.translation -= this->LensPoint;
     return pose;
   }
@@ -402,15 +402,7 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
   const CameraDescription& camera = scene.cameras[index];
   const auto make = [&]
   {
-    try
-    {
-      poseAt(camera, frame);
-    }
-    catch (const UsageError& error)
-    {
-      throw InputError(scene.title(), camera.line,
-        "camera " + quoted(camera.name) + " at frame " + shortest(frame) + ": " + error.what());
-    }
+    poseIn(scene, camera, frame);
     return cameraView(camera, frame, width, height, scene.folder);
   };
   View view = this->Self->Views.at(scene.cameras, index, { frame, width, height }, make);

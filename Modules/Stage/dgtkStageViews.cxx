@@ -2,8 +2,10 @@
 #include "dgtkStageViews.h"
 
 #include "dgtkCameraEntry.h"
+#include "dgtkError.h"
 #include "dgtkPortableMath.h"
 #include "dgtkStage.h"
+#include "dgtkText.h"
 
 #include <cmath>
 #include <cstdint>
@@ -93,6 +95,8 @@ View throughLens(const View& view, const Eigen::Vector2d& point, double focus)
   return moved;
 }
 
+namespace
+{
 Rigid3 poseAt(const CameraDescription& camera, double frame)
 {
   if (!camera.posed)
@@ -100,6 +104,20 @@ Rigid3 poseAt(const CameraDescription& camera, double frame)
     return lookAtPose(camera.eye.at(frame), camera.lookAt.at(frame), camera.up.at(frame));
   }
   return Rigid3{ camera.orientation.at(frame).matrix(), camera.position.at(frame) }.inverse();
+}
+} // namespace
+
+Rigid3 poseIn(const SceneDescription& scene, const CameraDescription& camera, double frame)
+{
+  try
+  {
+    return poseAt(camera, frame);
+  }
+  catch (const UsageError& error)
+  {
+    throw InputError(scene.title(), camera.line,
+      "camera " + quoted(camera.name) + " at frame " + shortest(frame) + ": " + error.what());
+  }
 }
 
 View cameraView(const CameraDescription& camera, double frame, int width, int height, const std::string& folder)

@@ -13,8 +13,8 @@ namespace dgtk
 /// The lights that are on at a frame; the head light for a scene without any.
 std::vector<LightState> lightsAt(const SceneDescription& scene, double frame);
 
-/// camera_from_world.
-Rigid3 poseAt(const CameraDescription& camera, double frame);
+/// camera_from_world. Throws InputError, with the camera and the frame, where there is none.
+Rigid3 poseIn(const SceneDescription& scene, const CameraDescription& camera, double frame);
 
 /// Points on the unit disc: Vogel's spiral, in bit-reversed order.
 std::vector<Eigen::Vector2d> lensPoints(int count);

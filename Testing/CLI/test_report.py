@@ -237,7 +237,8 @@ class Report(ManyCase):
         folder = self.path("several")
         self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--size", "320x240", "--visibility", "ray",
                   "--layers", "depth,distance,objects,classes,normal,position,uv")
-        page = self.report(folder)
+        page = self.path("page.html")
+        self.alone("report", folder, "-o", page, "--quiet")  # to the end of its process, which the others do not reach
         sizes = {block_of(page, layer, shown)[1].shape[:2] for layer in range(7) for shown in range(6)}
         [(height, width)] = sizes
         self.assertEqual((width % 8, height), (0, width * 3 // 4))

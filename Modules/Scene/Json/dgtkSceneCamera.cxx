@@ -36,23 +36,22 @@ void refuseTogether(const JsonCursor& at, const char* first, const char* second)
   }
 }
 
-/// Fails for a parameter that is given and that the camera's model does not have.
-void refuseForeign(const JsonCursor& at, const Camera& camera)
+bool isOfAnyModel(const std::string& name)
 {
-  const CameraEntry& model = *findCamera(camera.model);
+  const std::vector<CameraRow>& rows = cameraRows();
+  return std::any_of(
+    rows.begin(), rows.end(), [&](const CameraRow& row) { return findCamera(row.model)->find(name) != nullptr; });
+}
+
+[[noreturn]] void failForeign(const JsonCursor& at, std::size_t i, const CameraEntry& model, const std::string& name)
+{
   std::vector<std::string> has;
   for (const CameraParameter& parameter : model.parameters)
   {
     has.push_back(parameter.name);
   }
-  for (std::size_t i = 0; i < at.memberCount(); ++i)
-  {
-    if (isOwnMember(at.key(i)) && model.find(at.key(i)) == nullptr)
-    {
-      at.member(i).fail("is not for a camera of the model " + quoted(camera.model),
-        has.empty() ? "no such key" : joined(has), at.member(i).node().described());
-    }
-  }
+  at.member(i).fail("is not for a camera of the model " + quoted(name), has.empty() ? "no such key" : joined(has),
+    at.member(i).node().described());
 }
 
 /// One number, or one of the counts in a list.
@@ -144,6 +143,10 @@ void readCamera(const JsonCursor& at, UpAxis upAxis, Camera& camera)
   const auto readOwn = [&](std::size_t i)
   {
     const CameraParameter* const parameter = model.find(at.key(i));
+    if (parameter == nullptr && isOfAnyModel(at.key(i)))
+    {
+      failForeign(at, i, model, camera.model);
+    }
     if (parameter == nullptr)
     {
       std::vector<std::string> known = keysOf(cameraFields());
@@ -170,7 +173,13 @@ void readCamera(const JsonCursor& at, UpAxis upAxis, Camera& camera)
   {
     at.fail("has no pose", "eye and lookAt, or position and orientation");
   }
-  refuseForeign(at, camera);
+  for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
+  {
+    if (isOwnMember(at.key(i)) && model.find(at.key(i)) == nullptr)
+    {
+      failForeign(at, i, model, camera.model);
+    }
+  }
 }
 
 JsonNode writeCamera(const CameraDescription& camera, UpAxis upAxis)

@@ -141,7 +141,8 @@ TEST(SceneCameras, WhatAModelDoesNotHaveIsRefused)
   }
   std::string pinhole = sceneWith("");
   pinhole.replace(pinhole.find("strange"), 7, "pinhole");
-  EXPECT_THAT(refusalOf("a.json", pinhole), HasSubstr("cameras[0].oddFile is an unknown key"));
+  EXPECT_THAT(refusalOf("a.json", pinhole),
+    HasSubstr("cameras[0].oddFile is not for a camera of the model 'pinhole' (expected fovY, aspect, K, "));
   std::string unknown = sceneWith("");
   unknown.replace(unknown.find("strange"), 7, "unknown");
   EXPECT_THAT(refusalOf("a.json", unknown), HasSubstr("cameras[0].model is not known (expected one of pinhole, "));

@@ -347,7 +347,8 @@ TEST(Stage, UndefinedMomentsAreRefused)
   const ModelFolder folder;
   const auto stage = folder.load(R"({"objects": [
     {"name": "flat", "model": "models/square.ac", "scale": {"keys": [[0, [1, -1, 2]], [3, [1, 1, 2]]]}}],
-    "cameras": [{"eye": {"keys": [[0, [0, 0, 5]], [3, [0, 0, -5]]]}, "lookAt": [0, 0, 0]}]})");
+    "cameras": [{"eye": {"keys": [[0, [0, 0, 5]], [3, [0, 0, -5]]]}, "lookAt": [0, 0, 0]}, {"name": "rolling",
+      "eye": {"keys": [[0, [0, 0, 5]], [3, [0, 0, -5]]]}, "lookAt": [0, 0, 0], "rollingShutter": {"duration": 1}}]})");
   EXPECT_NO_THROW(stage->at(0));
   EXPECT_THAT(thrownBy<InputError>(
                 [&]
@@ -357,4 +358,7 @@ TEST(Stage, UndefinedMomentsAreRefused)
     HasSubstr("scene.json:2: object 'flat': scale passes through 0"));
   EXPECT_THAT(thrownBy<InputError>([&] { stage->view(0, 1.5); }),
     HasSubstr("scene.json:3: camera 'Camera0' at frame 1.5: eye and look-at"));
+  const View rolling = stage->view(1, 1); // within whose frame they meet
+  EXPECT_THAT(thrownBy<InputError>([&] { rolling.instants->poseAt(1.5); }),
+    HasSubstr("scene.json:3: camera 'rolling' at frame 1.5: eye and look-at"));
 }

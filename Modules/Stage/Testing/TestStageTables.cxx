@@ -133,6 +133,8 @@ TEST(StageTables, SequencesMayEndBetweenFrames)
     EXPECT_NEAR(frameAt(0, 41 * round + 1, true), 1.25, 1e-5 * round) << round;
     EXPECT_NEAR(frameAt(0, 41 * round - 1, true), 50, 1e-5 * round) << round;
   }
+  // so late that what is known of the place in the round is no more than the round: still moving
+  EXPECT_GT(frameAt(0, 1e9 + 1, true), frameAt(0, 1e9, true));
   EXPECT_EQ(sequenceSpan(model, 0, true), length);
   EXPECT_EQ(sequenceSpan(model, 1, false), 0.3125);
   EXPECT_EQ(frameAt(1, 1, false), 0.3125);
