@@ -8,6 +8,7 @@ import resource
 import shutil
 import struct
 import subprocess
+import tempfile
 import time
 
 import datasets
@@ -217,6 +218,9 @@ class Frame(datasets.ExportCase):
                    "".join(f"planned\t{one['path']}\n" for one in record["files"]))
         self.dgtk(*command, "--resume")
         self.assertEqual(digests(self.path("linked")), whole)
+        with tempfile.TemporaryDirectory(prefix="dgtk-", dir="/dev/shm") as memory:  # where links cannot lead: copies
+            self.dgtk(*command[:-1], os.path.join(memory, "linked"))
+            self.assertEqual(digests(os.path.join(memory, "linked")), whole)
 
     def test_another_export_is_not_mixed_in(self):
         dataset = self.render(datasets.walk(self.path("scene")))

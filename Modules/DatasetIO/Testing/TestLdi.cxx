@@ -293,7 +293,8 @@ TEST(Ldi, DamagedFilesAreRefusedByName)
   EXPECT_THAT(says(with(good, 8, 0xFFFFFFFFu)), HasSubstr("expected at most " + std::to_string(records) + ", found "));
   EXPECT_THAT(says(good + "x"), HasSubstr("goes on behind its last pixel"));
   // the first record stands behind the counts of pixels 0 and 1
-  EXPECT_THAT(says(with(good, 20, std::numeric_limits<double>::infinity())), HasSubstr("a depth that is not finite"));
+  EXPECT_THAT(says(with(good, 20, std::numeric_limits<double>::infinity())),
+    HasSubstr("offset 20: has a depth that is not finite"));
   EXPECT_THAT(says(with(good, 36 + 4, 1e9)), HasSubstr("nearer than the one before")); // of two records the first
   for (std::size_t bytes = 0; bytes < good.size(); ++bytes)
   {
