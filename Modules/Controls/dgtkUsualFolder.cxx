@@ -3,7 +3,9 @@
 
 #include <QDir>
 #include <QFileInfo>
+#include <QMimeData>
 #include <QSettings>
+#include <QUrl>
 
 namespace dgtk
 {
@@ -18,6 +20,19 @@ void rememberFolder(const QString& chosen, const QString& kind)
 {
   const QFileInfo file(chosen);
   QSettings().setValue("folder/" + kind, file.isDir() ? file.absoluteFilePath() : file.absolutePath());
+}
+
+QStringList localFiles(const QMimeData& dragged)
+{
+  QStringList paths;
+  for (const QUrl& url : dragged.urls())
+  {
+    if (url.isLocalFile())
+    {
+      paths << url.toLocalFile();
+    }
+  }
+  return paths;
 }
 
 } // namespace dgtk

@@ -4,7 +4,9 @@
 
 #include "dgtkControlsModule.h"
 
-#include <QString>
+#include <QStringList>
+
+class QMimeData;
 
 namespace dgtk
 {
@@ -13,6 +15,8 @@ namespace dgtk
 DGTKCONTROLS_EXPORT QString usualFolder(const QString& kind = "scenes");
 /// Of a file its folder; a folder (a dataset) itself.
 DGTKCONTROLS_EXPORT void rememberFolder(const QString& chosen, const QString& kind = "scenes");
+/// Paths of the files and folders on this machine among what is dragged.
+DGTKCONTROLS_EXPORT QStringList localFiles(const QMimeData& dragged);
 
 } // namespace dgtk
 

@@ -4,6 +4,7 @@
 #include "dgtkFrameRow.h"
 #include "dgtkPaneGrid.h"
 #include "dgtkReadOut.h"
+#include "dgtkUsualFolder.h"
 #include "dgtkWindowSize.h"
 
 #include <QAction>
@@ -15,7 +16,6 @@
 #include <QFontDatabase>
 #include <QLabel>
 #include <QMenuBar>
-#include <QMimeData>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSettings>
@@ -23,7 +23,6 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
-#include <QUrl>
 #include <QVBoxLayout>
 
 namespace dgtk
@@ -235,7 +234,7 @@ void DatasetViewer::closeEvent(QCloseEvent* event)
 
 void DatasetViewer::dragEnterEvent(QDragEnterEvent* event)
 {
-  if (event->mimeData()->hasUrls())
+  if (!localFiles(*event->mimeData()).isEmpty())
   {
     event->acceptProposedAction();
   }
@@ -243,11 +242,11 @@ void DatasetViewer::dragEnterEvent(QDragEnterEvent* event)
 
 void DatasetViewer::dropEvent(QDropEvent* event)
 {
-  const QList<QUrl> urls = event->mimeData()->urls();
-  if (!urls.isEmpty() && urls.front().isLocalFile())
+  const QStringList paths = localFiles(*event->mimeData());
+  if (!paths.isEmpty())
   {
     event->acceptProposedAction();
-    this->openFolder(urls.front().toLocalFile());
+    this->openFolder(paths.front());
   }
 }
 

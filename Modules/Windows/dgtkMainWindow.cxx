@@ -10,6 +10,7 @@
 #include "dgtkRenderStatus.h"
 #include "dgtkSceneFiles.h"
 #include "dgtkSceneViews.h"
+#include "dgtkUsualFolder.h"
 #include "dgtkWindowSize.h"
 
 #include <QAction>
@@ -21,13 +22,11 @@
 #include <QFileInfo>
 #include <QMenu>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QSettings>
 #include <QStatusBar>
 #include <QSurfaceFormat>
 #include <QTimer>
 #include <QToolBar>
-#include <QUrl>
 
 #include <clocale>
 
@@ -193,7 +192,7 @@ void MainWindow::allowFiles(bool busy)
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)
 {
-  if (event->mimeData()->hasUrls())
+  if (!localFiles(*event->mimeData()).isEmpty())
   {
     event->acceptProposedAction();
   }
@@ -201,14 +200,7 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event)
 
 void MainWindow::dropEvent(QDropEvent* event)
 {
-  QStringList paths;
-  for (const QUrl& url : event->mimeData()->urls())
-  {
-    if (url.isLocalFile())
-    {
-      paths << url.toLocalFile();
-    }
-  }
+  const QStringList paths = localFiles(*event->mimeData());
   event->acceptProposedAction();
   // The program that they come from does not wait for them to be read.
   QTimer::singleShot(0, this,

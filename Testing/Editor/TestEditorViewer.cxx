@@ -106,6 +106,15 @@ void TestEditorViewer::opensByFolderManifestAndDrop()
   viewer = this->open(this->dataset() + "/manifest.json");
   QVERIFY(viewer != nullptr);
   QCOMPARE(frameText(viewer), QString("Frame 0 (1 of 3)"));
+
+  QMimeData elsewhere;
+  elsewhere.setUrls({ QUrl("https://example.org/a.json") });
+  for (QWidget* const window : { static_cast<QWidget*>(viewer), static_cast<QWidget*>(this->Window.get()) })
+  {
+    QDragEnterEvent none({ 50, 50 }, Qt::CopyAction, &elsewhere, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(window, &none);
+    QVERIFY(!none.isAccepted()); // the pointer says so
+  }
   QVERIFY(viewer->close());
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
 
