@@ -34,7 +34,6 @@ FrameRow::FrameRow(const QList<QAction*>& buttons, QAction* play, std::function<
   this->Loop->setCheckable(true);
   this->Frames->setObjectName("frames");
   this->Frames->setAccessibleName(tr("Frame"));
-  this->Frames->setPageStep(10);
   this->Text->setObjectName("frameText");
   this->Rate->setObjectName("rate");
   this->Rate->setRange(1, 60);

@@ -266,6 +266,10 @@ TEST_F(PictureViewTable, WhatIsPainted)
     const QColor on = this->painted().pixelColor(border.toPoint());
     EXPECT_EQ(on != beside && on != QColor(19 * 6, 60, 0), hasGrid) << size;
   }
+  this->Sync.zoom.pan({ 10000, 0 }); // the picture's own border has one, too
+  const QColor edge = this->painted().pixelColor(this->View->widgetPoint({ 0, 10.5 }).toPoint());
+  EXPECT_NE(edge, QColor(0, 60, 0));
+  EXPECT_NE(edge, QColor(28, 28, 31));
   auto failed = std::make_shared<ShownPicture>();
   failed->error = "it is damaged";
   this->View->showPicture(failed);

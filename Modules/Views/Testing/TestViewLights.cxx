@@ -266,6 +266,13 @@ TEST_F(ViewLightsTable, TheSkyIsThePicture)
       EXPECT_NEAR(picture->GetScalarComponentAsDouble(column, row, 0, c), expected, 13) << texel << ' ' << c;
     }
   }
+  // red is in every other texel: as much to the left of the second one's centre as to its right
+  for (const int apart : { 200, 220, 240 })
+  {
+    EXPECT_NEAR(picture->GetScalarComponentAsDouble(383 - apart, 384, 0, 0),
+      picture->GetScalarComponentAsDouble(384 + apart, 384, 0, 0), 1)
+      << apart;
+  }
   this->Lights.show(this->Surroundings, nullptr, perspective);
   EXPECT_EQ(sky->GetTexture()->GetInput(), picture) << "made once";
   this->Lights.show(this->Surroundings, nullptr, this->Front);
