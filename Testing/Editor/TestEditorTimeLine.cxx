@@ -263,6 +263,7 @@ void TestEditorTimeLine::sequencesAreChosen()
   // The first row has a bar, too: the second begins below it.
   const QPoint creature = at(5, 0) + QPoint(0, rowHeight + barHeight);
   this->choose(creature, "sequence", "jump");
+  QCOMPARE(this->Checked, QString("stand."));
   QCOMPARE(animation().sequence, std::string("jump"));
   this->choose(creature, "", "Begin the sequence here");
   QCOMPARE(animation().start, 5.0);

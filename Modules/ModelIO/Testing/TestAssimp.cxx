@@ -246,6 +246,8 @@ TEST(Assimp, FilesOutsideOfTheModelsFolderAreRefused)
   EXPECT_THAT(refusalOf("a.gltf", gltf("%2e%2E/secret.bi%6e")), HasSubstr("'../secret.bin', which lies outside"));
   std::filesystem::create_symlink(folder.path("secret.bin"), folder.path("model/link.bin"));
   EXPECT_THAT(refusalOf("a.gltf", gltf("link.bin")), HasSubstr("'link.bin', which lies outside"));
+  dgtk::writeFile(folder.path("model/SECRET.BIN"), std::string(36, '\0'));
+  EXPECT_EQ(refusalOf("a.gltf", gltf("../secret.bin")), "") << "its base name is beside the model, in another case";
 }
 
 // Animations are read by us, geometry by the importer: both must find the same file.
