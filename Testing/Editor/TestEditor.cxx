@@ -245,9 +245,12 @@ void TestEditor::asksAboutUnsavedWork()
   answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
   this->action("new")->trigger();
   QCOMPARE(this->Window->document().scene().objects.size(), std::size_t(1));
+  auto* frame = this->Window->findChild<QSpinBox*>("frame");
+  frame->setValue(7);
   answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
   this->action("new")->trigger();
   QVERIFY(this->Window->document().scene().objects.empty());
+  QCOMPARE(frame->value(), 0);
   QVERIFY(this->Window->close());
 }
 
