@@ -167,6 +167,7 @@ struct Model
 
   std::shared_ptr<const Geometry> rest; ///< geometry of the first frame; never null
   std::vector<Eigen::Vector2d> uvs;     ///< one per split vertex, or empty when no part has a texture coordinate
+  std::vector<std::uint8_t> unplaced;   ///< 1 for triangles whose `uvs` are not of the file but 0; empty: none of them
   /// Colours of the split vertices, R, G, B, A, 8 bits, sRGB, interpolated: times the ambient and diffuse colour, A
   /// times the opacity. Empty: none.
   std::vector<std::array<std::uint8_t, 4>> colors;
@@ -202,6 +203,10 @@ struct Model
   std::size_t fileVertices() const { return this->sourceOf.empty() ? this->sourceVertices : this->sourceOf.size(); }
   /// The first split vertex that stands for a vertex of the file; none for one of no triangle.
   DGTKMODELIO_EXPORT std::optional<std::size_t> splitVertexOf(std::uint32_t fileVertex) const;
+  bool hasUvs(std::uint32_t triangle) const
+  {
+    return !this->uvs.empty() && (this->unplaced.empty() || this->unplaced[triangle] == 0);
+  }
   /// Part of a triangle of the model, by binary search. triangle < triangles.size().
   DGTKMODELIO_EXPORT std::uint32_t partOf(std::uint32_t triangle) const;
   /// Whether the picture of one of `textures` is in no file of its own.

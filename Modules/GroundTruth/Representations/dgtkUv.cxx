@@ -12,7 +12,7 @@ public:
   LayerSpec spec() const override
   {
     return { "uv", PixelType::Float64, 2, "1", "", "nan",
-      "texture coordinates at the pixel's centre, (0, 0) the lower left corner of the picture; none for models without",
+      "texture coordinates at the pixel's centre, (0, 0) the lower left corner of the picture; none for surfaces without",
       Meaning::TextureCoordinates };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }
@@ -25,7 +25,7 @@ public:
       [&](std::size_t i, int, int, double* value)
       {
         const Model& model = *in.state->instances[in.hits[i].object - 1].model;
-        if (model.uvs.empty())
+        if (!model.hasUvs(in.hits[i].triangle))
         {
           value[0] = value[1] = none;
           return;

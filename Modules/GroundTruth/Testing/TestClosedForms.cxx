@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 using namespace dgtk::test;
 
@@ -247,4 +248,25 @@ TEST(ClosedForms, ModelsWithoutTextureCoordinatesHaveNone)
   {
     ASSERT_TRUE(std::isnan(uv.row<double>(0)[i]));
   }
+}
+
+TEST(ClosedForms, TrianglesWithoutTextureCoordinatesHaveNone)
+{
+  auto model = makeQuad();
+  ASSERT_EQ(model->triangles.size(), 2u);
+  model->unplaced = { 0, 1 };
+  const auto state = SceneBuilder().add(model).state();
+  const dgtk::View view = makeView();
+  const dgtk::VisibilityBuffer buffer = bruteForce(*state, view);
+  const dgtk::Rows uv = computeLayer("uv", *state, view, buffer);
+  std::set<std::uint32_t> seen;
+  for (int i = 0; i < 64 * 48; ++i)
+  {
+    const dgtk::Hit hit = buffer.hits[i];
+    seen.insert(hit.object ? hit.triangle : 2);
+    ASSERT_EQ(std::isfinite(uv.row<double>(0)[2 * i]), hit.object && hit.triangle == 0);
+    ASSERT_EQ(std::isfinite(uv.row<double>(0)[2 * i + 1]), hit.object && hit.triangle == 0);
+  }
+  EXPECT_GE(seen.size(), 2u);
+  EXPECT_EQ(seen.count(0) + seen.count(1), 2u);
 }

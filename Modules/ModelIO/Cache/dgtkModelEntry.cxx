@@ -237,7 +237,7 @@ void io(A& a, Model& m)
   auto rest = A::isReader ? std::make_shared<Geometry>() : std::const_pointer_cast<Geometry>(m.rest);
   a(*rest);
   m.rest = rest;
-  a(m.uvs), a(m.colors), a(m.sourceVertex), a(m.sourceVertices), a(m.sourceOf), a(m.isNumbered);
+  a(m.uvs), a(m.unplaced), a(m.colors), a(m.sourceVertex), a(m.sourceVertices), a(m.sourceOf), a(m.isNumbered);
   a(m.normalGroup), a(m.animations), a(m.frames);
   motion(a, m);
   a(m.lines), a(m.declaredTriangles), a(m.twoSidedTriangles), a(m.twoSidedSurfaces), a(m.declaredMaterials);
@@ -275,6 +275,7 @@ bool hasGeometry(const Model& m)
 {
   const std::size_t vertices = m.rest->positions.size();
   const bool sizes = m.rest->normals.size() == vertices && (m.uvs.empty() || m.uvs.size() == vertices) &&
+                     (m.unplaced.empty() || m.unplaced.size() == m.triangles.size()) &&
                      (m.colors.empty() || m.colors.size() == vertices) && m.sourceVertex.size() == vertices &&
                      (m.normalGroup.empty() || m.normalGroup.size() == vertices);
   const auto inside = [vertices](const std::array<std::uint32_t, 3>& t)

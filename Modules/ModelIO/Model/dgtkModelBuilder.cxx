@@ -14,7 +14,9 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t mostMaterials = 65536;
+constexpr int mostMaterials = 65536;
+/// Added to the material of surfaces without texture coordinates until it is known whether others have some.
+constexpr int unplaced = mostMaterials;
 constexpr std::size_t mostTextures = 4096;
 /// Corners from which on scratch memory is given back after use.
 constexpr std::size_t largeSurface = 10000;
@@ -90,7 +92,7 @@ void ModelBuilder::keep(std::vector<ModelDependency> dependencies, std::uint64_t
 int ModelBuilder::addMaterial(const Material& material, const MaterialAlpha& alpha)
 {
   std::vector<Material>& materials = this->model().materials;
-  if (materials.size() >= mostMaterials)
+  if (materials.size() >= std::size_t(mostMaterials))
   {
     throw InputError(this->model().path, "has too many materials", "at most " + std::to_string(mostMaterials));
   }
@@ -128,7 +130,7 @@ int ModelBuilder::addTexture(
     return -1;
   }
   std::vector<ModelPicture>& pictures = this->Contents.pictures;
-  auto& named = this->Pictures[name];
+  auto& named = this->Pictures[isInFolder(alternative, name) ? alternative : name];
   const bool isNamed = !named.empty();
   const auto [known, isNew] = named.try_emplace(wrap, static_cast<int>(pictures.size()));
   if (isNew && pictures.size() >= mostTextures)
@@ -247,21 +249,25 @@ bool ModelBuilder::usable(const Corner* corners, std::size_t count)
   return finite;
 }
 
-void ModelBuilder::addCorners(const Corner* corners, std::size_t count)
+/// Whether one has a texture coordinate.
+bool ModelBuilder::addCorners(const Corner* corners, std::size_t count)
 {
   ModelObject& object = *this->Current;
   object.polygon.clear();
   object.polygon.reserve(count);
   makeRoom(object.corners, count);
+  bool isPlaced = false;
   for (std::size_t i = 0; i < count; ++i)
   {
     Corner corner = corners[i];
+    isPlaced = isPlaced || std::isfinite(corner.u) || std::isfinite(corner.v);
     corner.u = std::isfinite(corner.u) ? corner.u : 0;
     corner.v = std::isfinite(corner.v) ? corner.v : 0;
     this->HasUvs = this->HasUvs || corner.u != 0 || corner.v != 0;
     object.corners.push_back(corner);
     object.polygon.push_back(object.positions[object.local(corner)]);
   }
+  return isPlaced;
 }
 
 bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const SurfaceStyle& style)
@@ -276,12 +282,12 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
   {
     throw InputError(this->model().path, "has too many surfaces in one object");
   }
-  this->addCorners(corners, count);
+  const bool isPlaced = this->addCorners(corners, count);
   object.cut.reserve(count - 2);
   this->GaveUpShape = !triangulate(object.polygon, object.cut, this->Work, this->WorkLimit) || this->GaveUpShape;
   ModelObject::Surface surface{ first, static_cast<std::uint32_t>(count),
     static_cast<std::uint32_t>(object.triangles.size()), static_cast<std::uint32_t>(object.cut.size()), style,
-    polygonNormal(object.polygon), 0 };
+    polygonNormal(object.polygon), 0, isPlaced };
   surface.area = surface.normal.stableNorm();
   surface.normal = surface.area > 0 ? Eigen::Vector3d(surface.normal / surface.area) : Eigen::Vector3d(0, 0, 0);
   if (style.material < 0 || static_cast<std::size_t>(style.material) >= this->materials())
@@ -293,7 +299,6 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
   {
     object.triangles.push_back({ first + t[0], first + t[1], first + t[2] });
   }
-  object.surfaces.push_back(surface);
   if (count > largeSurface)
   {
     std::vector<Eigen::Vector3d>().swap(object.polygon);
@@ -304,6 +309,8 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
     this->model().materials[static_cast<std::size_t>(surface.style.material)].twoSided = true;
     this->model().twoSidedTriangles += surface.triangles;
   }
+  surface.style.material += !isPlaced && this->hasPictures(surface.style.material) ? unplaced : 0;
+  object.surfaces.push_back(surface);
   return true;
 }
 
@@ -342,6 +349,54 @@ void ModelBuilder::endObject()
   this->Current.reset();
 }
 
+bool ModelBuilder::hasPictures(int material) const
+{
+  const auto index = static_cast<std::size_t>(material);
+  const Material& m = this->Contents.model->materials[index];
+  return this->Contents.alpha[index].mask >= 0 || std::any_of(materialTextures.begin(), materialTextures.end(),
+                                                    [&m](const auto texture) { return m.*texture >= 0; });
+}
+
+/// Index of a copy that looks as the material does where there are no texture coordinates.
+int ModelBuilder::withoutPictures(int material)
+{
+  const auto index = static_cast<std::size_t>(material);
+  Material bare = this->model().materials[index];
+  if (bare.emissionMap >= 0)
+  {
+    bare.emission.setZero(); // where it glows is not known
+  }
+  for (const auto texture : materialTextures)
+  {
+    bare.*texture = -1;
+  }
+  MaterialAlpha alpha = this->Contents.alpha[index];
+  alpha.mask = MaterialAlpha::none;
+  return this->addMaterial(bare, alpha);
+}
+
+void ModelBuilder::settleUnplaced()
+{
+  std::map<int, int> bare;
+  std::size_t triangles = 0;
+  for (Part& part : this->model().parts)
+  {
+    if (part.material >= unplaced)
+    {
+      part.material -= unplaced;
+      triangles += part.triangles;
+      const auto [known, isNew] = bare.try_emplace(part.material, part.material);
+      known->second = isNew && this->HasUvs ? this->withoutPictures(part.material) : known->second;
+      part.material = known->second;
+    }
+  }
+  if (triangles > 0)
+  {
+    this->warn(counted(triangles, "triangle has", "triangles have") +
+               " pictures but no texture coordinates: drawn without pictures");
+  }
+}
+
 ModelContents ModelBuilder::finish()
 {
   Model& model = this->model();
@@ -350,7 +405,13 @@ ModelContents ModelBuilder::finish()
   if (this->HasUvs)
   {
     model.uvs.resize(this->Rest->positions.size(), Eigen::Vector2d(0, 0));
+    model.unplaced.resize(model.unplaced.empty() ? 0 : model.triangles.size());
   }
+  else
+  {
+    std::vector<std::uint8_t>().swap(model.unplaced);
+  }
+  this->settleUnplaced();
   model.rest = this->Rest;
   if (model.deformation)
   {

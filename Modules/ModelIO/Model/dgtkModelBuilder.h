@@ -7,6 +7,7 @@
 #include "dgtkTriangulate.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -23,8 +24,8 @@ struct Corner
 {
   std::uint32_t vertex = 0; ///< as returned by ModelBuilder::addVertex, of the current object
   std::int32_t normal = -1; ///< as returned by ModelBuilder::addNormal, of the current object; -1: computed
-  float u = 0;
-  float v = 0;
+  float u = NAN;            ///< a surface none of whose corners has a texture coordinate is drawn without pictures
+  float v = NAN;
   std::array<std::uint8_t, 4> color{ 255, 255, 255, 255 }; ///< R, G, B, A; see ModelBuilder::setHasColors()
 };
 
@@ -86,8 +87,8 @@ public:
   /// Changes a material that addMaterial returned and nothing uses yet.
   void setMaterial(int index, const Material& material);
   std::size_t materials() const { return this->Contents.model->materials.size(); }
-  /// Index of the picture of that name, or -1 for "". When it is not found, `alternative` is looked for; `unescaped` is
-  /// what it is called then.
+  /// Index of the picture of that name, or -1 for "". When it is not found, `alternative` is looked for, or before it
+  /// where that is the name in another folder, as it is written; `unescaped` is what it is called when not found.
   int addTexture(const std::string& name, const std::string& alternative = {}, const std::string& unescaped = {},
     const TextureWraps& wrap = {});
   /// The same for a picture that the model's file holds.
@@ -132,14 +133,17 @@ private:
   std::vector<Eigen::Vector3f> smooth();
   std::vector<std::uint32_t> addSplitVertices(const std::vector<Eigen::Vector3f>& normals);
   void addParts(const std::vector<std::uint32_t>& splitOf);
-  void addCorners(const Corner* corners, std::size_t count);
+  bool addCorners(const Corner* corners, std::size_t count);
   void growBounds(const Eigen::Vector3d& position);
   bool usable(const Corner* corners, std::size_t count);
+  bool hasPictures(int material) const;
+  int withoutPictures(int material);
+  void settleUnplaced();
 
   ModelContents Contents;
   std::shared_ptr<Geometry> Rest;
   bool WantsPictures;
-  std::map<std::string, std::map<TextureWraps, int>> Pictures; ///< by name
+  std::map<std::string, std::map<TextureWraps, int>> Pictures; ///< by name, in its folder
   std::unique_ptr<ModelObject> Current;
   std::uint64_t MemoryLimit;
   std::uint64_t WorkLimit; ///< of ear clipping and smoothing together

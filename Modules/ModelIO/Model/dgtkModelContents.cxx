@@ -8,6 +8,7 @@
 #include "dgtkTexturePixels.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <tuple>
 
@@ -16,6 +17,8 @@ namespace dgtk
 
 namespace
 {
+namespace fs = std::filesystem;
+
 /// A channel of a picture of which another one of `width` x `height` is made: interpolated between the middles of its
 /// texels, its border goes on.
 double sampled(const Image& image, int channel, int x, int y, int width, int height)
@@ -132,7 +135,8 @@ private:
     else
     {
       std::string tried;
-      texture.path = this->Finder.find(picture.name, &tried);
+      texture.path = this->findInFolder(picture);
+      texture.path = texture.path.empty() ? this->Finder.find(picture.name, &tried) : texture.path;
       if (texture.path.empty() && !picture.unescaped.empty())
       {
         texture.name = picture.unescaped;
@@ -149,6 +153,15 @@ private:
       }
     }
     this->Made.textures.push_back(texture);
+  }
+
+  /// Path of a picture that is in the folder of its alternative, as it is written.
+  std::string findInFolder(const ModelPicture& picture)
+  {
+    std::string written = isInFolder(picture.alternative, picture.name) ? picture.alternative : "";
+    std::replace(written.begin(), written.end(), '\\', '/');
+    const std::string found = this->Finder.find(written);
+    return found == (fs::path(this->Made.path).parent_path() / written).lexically_normal() ? found : std::string();
   }
 
   /// What is there already is taken from the budget, and what names the same file as another once.
@@ -360,6 +373,13 @@ private:
   std::map<std::tuple<int, double, double>, int> Remade;          ///< (texture, cut-off, opacity)
 };
 } // namespace
+
+bool isInFolder(const std::string& alternative, const std::string& name)
+{
+  const std::string ending = '/' + name;
+  return alternative.size() > ending.size() &&
+         alternative.compare(alternative.size() - ending.size(), std::string::npos, ending) == 0;
+}
 
 std::shared_ptr<Model> withPictures(ModelContents contents, const ReadOptions& options)
 {

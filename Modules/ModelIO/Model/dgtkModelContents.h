@@ -17,7 +17,7 @@ namespace dgtk
 struct ModelPicture
 {
   std::string name;        ///< as written
-  std::string alternative; ///< looked for when `name` is not found
+  std::string alternative; ///< looked for when `name` is not found, or first: see isInFolder()
   std::string unescaped;   ///< what the picture is called when `name` is not found: a URI without its escapes; or ""
   std::string type;        ///< of `bytes`: "png", "jpg"; "" for a file, and for RGBA rows, top to bottom
   std::int32_t width = 0;  ///< of RGBA rows
@@ -29,6 +29,9 @@ struct ModelPicture
 
   bool isInFile() const { return !this->type.empty() || this->width > 0; }
 };
+
+/// Whether an alternative is the name of a picture in another folder, where it is looked for first, as it is written.
+bool isInFolder(const std::string& alternative, const std::string& name);
 
 /// What the alpha of its picture means to a material.
 enum class AlphaUse : std::int32_t

@@ -38,6 +38,7 @@ struct ModelObject
     SurfaceStyle style;
     Eigen::Vector3d normal; ///< unit length, or 0 for a surface without area
     double area;            ///< twice its area
+    bool isPlaced;          ///< a corner has a texture coordinate
   };
   std::string name;
   std::uint32_t firstVertex = 0;

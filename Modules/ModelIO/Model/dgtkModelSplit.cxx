@@ -127,6 +127,11 @@ void ModelBuilder::addParts(const std::vector<std::uint32_t>& splitOf)
       model.parts.push_back({ object.name, previous, static_cast<std::uint32_t>(model.triangles.size()), 0 });
     }
     model.parts.back().triangles += surface.triangles;
+    if (!surface.isPlaced)
+    {
+      model.unplaced.resize(model.triangles.size());
+      model.unplaced.resize(model.triangles.size() + surface.triangles, 1);
+    }
     for (std::uint32_t t = 0; t < surface.triangles; ++t)
     {
       const std::array<std::uint32_t, 3>& cut = object.triangles[surface.firstTriangle + t];

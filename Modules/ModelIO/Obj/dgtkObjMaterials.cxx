@@ -43,7 +43,7 @@ ObjMaterials::Picture ObjMaterials::readPicture(ObjStatements& statements)
 {
   static const std::map<std::string_view, int> values{ { "-blendu", 1 }, { "-blendv", 1 }, { "-boost", 1 },
     { "-mm", 2 }, { "-o", 3 }, { "-s", 3 }, { "-t", 3 }, { "-texres", 1 }, { "-clamp", 1 }, { "-bm", 1 },
-    { "-imfchan", 1 }, { "-type", 1 }, { "-cc", 1 } };
+    { "-imfchan", 1 }, { "-type", 1 }, { "-cc", 1 }, { "-colorspace", 1 } };
   static const std::map<std::string_view, MaskValue> channels{ { "r", MaskValue::Red }, { "g", MaskValue::Green },
     { "b", MaskValue::Blue }, { "m", MaskValue::Alpha }, { "l", MaskValue::Luminance } };
   Picture to;
@@ -122,6 +122,7 @@ void ObjMaterials::readLibrary(const std::string& path)
 {
   const std::string text = toUtf8(readFile(path, largestLibrary));
   ObjStatements statements(path, text);
+  const std::string folder = (fs::path(this->Files.relative(path)).parent_path() / "").string();
   Entry* entry = nullptr;
   while (statements.next())
   {
@@ -130,6 +131,7 @@ void ObjMaterials::readLibrary(const std::string& path)
       const std::string name(statements.rest());
       const auto [added, isNew] = this->Entries.try_emplace(name, unsaid(name));
       entry = isNew ? &added->second : nullptr; // the first one of a name counts
+      added->second.folder = isNew ? folder : added->second.folder;
       this->Builder.model().declaredMaterials += isNew ? 1 : 0;
     }
     else if (entry)
@@ -154,6 +156,7 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
     Eigen::Vector3d value(0, 0, 0);
     const std::size_t count = statements.numbers(value.data(), 3);
     *color = count == 1 ? Eigen::Vector3d::Constant(value[0]) : value; // red alone is grey
+    entry.colored = entry.colored || keyword == "Kd";
   }
   else if (keyword == "Ns")
   {
@@ -205,6 +208,13 @@ void ObjMaterials::readPictureStatement(ObjStatements& statements, Entry& entry)
   }
 }
 
+/// It is looked for beside the library before it is beside the model.
+int ObjMaterials::addPicture(const Entry& entry, const Picture& picture)
+{
+  const std::string beside = entry.folder.empty() ? std::string() : entry.folder + picture.name;
+  return this->Builder.addTexture(picture.name, beside, {}, picture.wrap);
+}
+
 int ObjMaterials::add(const Entry& entry)
 {
   Material material = entry.material;
@@ -218,13 +228,17 @@ int ObjMaterials::add(const Entry& entry)
     material.opacity = 1;
   }
   const Picture& picture = entry.picture;
-  material.texture = this->Builder.addTexture(picture.name, {}, {}, picture.wrap);
+  material.texture = this->addPicture(entry, picture);
+  if (material.texture >= 0 && !entry.colored)
+  {
+    material.diffuse = { 1, 1, 1 }; // the picture as it is
+  }
   MaterialAlpha alpha;
   const bool isOwn = entry.mask.name == picture.name && entry.mask.value == MaskValue::Usual;
-  alpha.mask = isOwn ? MaterialAlpha::none : this->Builder.addTexture(entry.mask.name, {}, {}, entry.mask.wrap);
+  alpha.mask = isOwn ? MaterialAlpha::none : this->addPicture(entry, entry.mask);
   alpha.value = entry.mask.value;
-  material.normalMap = this->Builder.addTexture(entry.normals.name, {}, {}, entry.normals.wrap);
-  material.emissionMap = this->Builder.addTexture(entry.emission.name, {}, {}, entry.emission.wrap);
+  material.normalMap = this->addPicture(entry, entry.normals);
+  material.emissionMap = this->addPicture(entry, entry.emission);
   if (material.emissionMap >= 0 && material.emission.isZero())
   {
     material.emission = { 1, 1, 1 }; // exporters write Ke 0 0 0 beside a picture

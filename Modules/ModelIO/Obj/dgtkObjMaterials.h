@@ -47,8 +47,10 @@ private:
     Picture mask;
     Picture emission;
     Picture normals;
+    std::string folder;           ///< of its library, from the model's, with a slash at its end; "" for the model's own
     std::set<std::string> unread; ///< statements of other pictures
     bool shines = true;           ///< its illumination model has highlights
+    bool colored = false;         ///< it says a diffuse colour
   };
   static Entry unsaid(const std::string& name); ///< what a library does not say
   static Picture readPicture(class ObjStatements& statements);
@@ -58,6 +60,7 @@ private:
   void readStatement(class ObjStatements& statements, Entry& entry);
   void readPictureStatement(class ObjStatements& statements, Entry& entry);
   int add(const Entry& entry);
+  int addPicture(const Entry& entry, const Picture& picture);
   void placePictures(const Entry& entry, int material);
 
   std::string Path;

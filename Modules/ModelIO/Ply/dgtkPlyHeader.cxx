@@ -264,13 +264,27 @@ PlyColor::PlyColor(const PlyElement& element)
   this->White = real ? 1 : bytesOf(type) == 1 ? 255 : bytesOf(type) == 2 ? 65535 : 4294967295.0;
 }
 
-Eigen::Vector3d PlyColor::in(const std::vector<double>& row) const
+Eigen::Vector3d PlyColor::in(const std::vector<double>& row)
 {
   const auto at = [&row](int property) { return PlyElement::valueAt(row, property); };
-  return Eigen::Vector3d(at(this->Red), at(this->Green), at(this->Blue)) / this->White;
+  const Eigen::Vector3d color(at(this->Red), at(this->Green), at(this->Blue));
+  this->Most = std::max(this->Most, color.maxCoeff());
+  return color / this->White;
 }
 
-std::array<std::uint8_t, 4> PlyColor::bytesIn(const std::vector<double>& row) const
+std::string PlyColor::oddRange() const
+{
+  constexpr double rounding = 1e-3;
+  if (this->White == 1)
+  {
+    return this->Most > 1 + rounding ? "colours above 1 are drawn as 1, which is white for numbers with fractions" : "";
+  }
+  return this->White > 255 && this->Most > 0 && this->Most <= 255
+           ? "colours are all but black: white is " + std::to_string(std::uint64_t(this->White)) + " for their type"
+           : "";
+}
+
+std::array<std::uint8_t, 4> PlyColor::bytesIn(const std::vector<double>& row)
 {
   const double alpha = this->Alpha < 0 ? 1 : PlyElement::valueAt(row, this->Alpha) / this->White;
   return colorBytes(this->in(row).data(), alpha);

@@ -55,8 +55,10 @@ class PlyColor
 public:
   explicit PlyColor(const PlyElement& element);
   bool exists() const { return this->Red >= 0 && this->Green >= 0 && this->Blue >= 0; }
-  Eigen::Vector3d in(const std::vector<double>& row) const; ///< white at 1
-  std::array<std::uint8_t, 4> bytesIn(const std::vector<double>& row) const;
+  Eigen::Vector3d in(const std::vector<double>& row); ///< white at 1
+  std::array<std::uint8_t, 4> bytesIn(const std::vector<double>& row);
+  /// A warning when what was read so far hardly has the range of its type; "" otherwise.
+  std::string oddRange() const;
 
 private:
   int Red;
@@ -64,6 +66,7 @@ private:
   int Blue;
   int Alpha;
   double White = 1;
+  double Most = 0; ///< component of the colours so far
 };
 
 /// A picture that the header names.

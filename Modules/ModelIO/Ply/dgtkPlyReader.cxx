@@ -208,7 +208,7 @@ private:
   {
     const int axes[3] = { element.find({ "x" }), element.find({ "y" }), element.find({ "z" }) };
     const int normals[3] = { element.find({ "nx" }), element.find({ "ny" }), element.find({ "nz" }) };
-    const PlyColor colors(element);
+    PlyColor colors(element);
     const int uvs[2] = { element.find({ "s", "u", "texture_u", "texture_s" }),
       element.find({ "t", "v", "texture_v", "texture_t" }) };
     this->HasUvs = uvs[0] >= 0 && uvs[1] >= 0;
@@ -249,6 +249,15 @@ private:
       }
     }
     this->Vertices = element.count;
+    this->warnOfRange(colors);
+  }
+
+  void warnOfRange(const PlyColor& colors)
+  {
+    if (const std::string odd = colors.oddRange(); !odd.empty())
+    {
+      this->Builder.warn(odd);
+    }
   }
 
   Corner corner(double index) const
@@ -286,6 +295,10 @@ private:
       const int plain = this->material(-1, colored);
       const auto& [name, wrap] = pictures[picture];
       known->second = this->Builder.withTexture(plain, this->Builder.addTexture(name, {}, {}, wrap));
+      if (known->second != plain && !this->HasColors)
+      {
+        this->Builder.model().materials[static_cast<std::size_t>(known->second)].diffuse.setOnes(); // nothing tints it
+      }
     }
     else if (isNew)
     {
@@ -312,7 +325,7 @@ private:
     const int wedges = element.find({ "texcoord" });
     const int ends[2] = { element.find({ "vertex1" }), element.find({ "vertex2" }) };
     const int numbers = element.find({ "texnumber" });
-    const PlyColor colors(element);
+    PlyColor colors(element);
     const bool colored = colors.exists() && !this->HasColors;
     const bool ofFaces = element.name != "edge";
     this->HasNumbers = this->HasNumbers || (ofFaces && numbers >= 0);
@@ -363,6 +376,7 @@ private:
           this->corner(row[static_cast<std::size_t>(ends[1])]).vertex);
       }
     }
+    this->warnOfRange(colors);
   }
 
   void addFace(const std::vector<double>& list, const std::vector<double>& uvs)

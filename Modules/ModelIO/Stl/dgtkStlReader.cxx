@@ -212,7 +212,12 @@ void addSolid(ModelBuilder& builder, const Solid& solid)
 ModelContents readStl(const std::string& path, const ReadOptions& options);
 ModelContents readStl(const std::string& path, const ReadOptions& options)
 {
-  const std::string bytes = readFile(path);
+  std::string bytes = readFile(path);
+  constexpr std::string_view mark = "\xef\xbb\xbf"; // of a text's byte order
+  if (bytes.compare(0, mark.size(), mark) == 0 && isText(path, bytes.substr(mark.size())))
+  {
+    bytes.erase(0, mark.size());
+  }
   ModelBuilder builder(path, "stl", bytes.size(), options);
   builder.model().isNumbered = false;
   bool colored = false;

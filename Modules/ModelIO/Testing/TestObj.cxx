@@ -302,10 +302,10 @@ TEST(Obj, PicturesBehindOptions)
   ObjFolder folder;
   for (const char* options : { "", "-s 2 2 2 ", "-s 2 ", "-o 0.5 0.5 ", "-clamp on -blendu off ", "-mm 0 1 -bm 2 ",
          "-imfchan l -texres 64 -t 1 ", "-imfchan l ", "-texres 64 ", "-clamp on ", "-blendu off ", "-blendv off ",
-         "-boost 1 ", "-type sphere ", "-cc on ", "\t" })
+         "-boost 1 ", "-type sphere ", "-cc on ", "-colorspace sRGB ", "\t" })
   {
     folder.write("a.mtl", std::string("newmtl m\nmap_Kd ") + options + "my stone.png \n");
-    const auto model = folder.read("mtllib a.mtl\n" + triangle + "usemtl m\nf 1 2 3\n");
+    const auto model = folder.read("mtllib a.mtl\nvt 0 0\n" + triangle + "usemtl m\nf 1/1 2/1 3/1\n");
     ASSERT_EQ(model->textures.size(), 1u) << options;
     EXPECT_EQ(model->textures[0].name, "my stone.png") << options;
     EXPECT_THAT(model->warnings, ElementsAre(HasSubstr("texture 'my stone.png' not found"))) << options;

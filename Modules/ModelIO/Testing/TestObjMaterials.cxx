@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -49,4 +50,54 @@ TEST(ObjMaterials, IlluminationModelsWithoutHighlights)
   {
     EXPECT_EQ(specular(std::string("Ks 1 1 1\nNs 10\n") + model), 1) << model;
   }
+}
+
+TEST(ObjMaterials, APictureIsNotTintedWhereNoColourIsSaid)
+{
+  const auto diffuse = [](const std::string& statements)
+  {
+    const auto model = readWithLibrary(
+      "newmtl m\n" + statements + '\n', "mtllib a.mtl\nvt 0 0\n" + threeCorners + "usemtl m\nf 1/1 2/1 3/1\n");
+    return model->materials.at(std::size_t(model->parts.at(0).material)).diffuse;
+  };
+  EXPECT_EQ(diffuse("map_Kd p.png"), Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(diffuse("Ka 1 1 1\nKd xyz 1 1 1\nmap_Kd p.png"), Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(diffuse("map_Kd p.png\nKd 0.6 0.6 0.6"), Eigen::Vector3d(0.6, 0.6, 0.6));
+  EXPECT_EQ(diffuse("map_d p.png"), Eigen::Vector3d(0.6, 0.6, 0.6));
+}
+
+TEST(ObjMaterials, PicturesLieBesideTheirLibraryFirst)
+{
+  const TemporaryFolder folder;
+  const auto path = [&folder](const std::string& name) { return folder.path("model/" + name); };
+  const auto put = [&path](const std::string& name) { dgtk::writeFile(path(name), "P3 1 1 255 9 9 9\n"); };
+  for (const char* const made : { "mats/deep", "deep", "more" })
+  {
+    std::filesystem::create_directories(path(made));
+  }
+  const std::string library = "\nmap_Kd skin.ppm\nnorm deep\\other.ppm\n";
+  dgtk::writeFile(path("mats/a.mtl"), "newmtl m" + library);
+  dgtk::writeFile(path("more/b.mtl"), "newmtl n" + library);
+  dgtk::writeFile(path("a.obj"), "mtllib mats/a.mtl\nmtllib more\\b.mtl\nvt 0 0\n" + threeCorners +
+                                   "usemtl m\nf 1/1 2/1 3/1\nusemtl n\nf 1/1 2/1 3/1\n");
+  const auto found = [&path](std::size_t part, int dgtk::Material::*map)
+  {
+    const auto model = dgtk::readModel(path("a.obj"));
+    const dgtk::Material& material = model->materials.at(std::size_t(model->parts.at(part).material));
+    const std::string file = model->textures.at(std::size_t(material.*map)).path;
+    return file.empty() ? file : std::filesystem::relative(file, path("")).string();
+  };
+  put("mats/SKIN.PPM");
+  EXPECT_EQ(found(0, &dgtk::Material::texture), "mats/SKIN.PPM") << "there is no other";
+  put("skin.ppm");
+  put("other.ppm");
+  EXPECT_EQ(found(0, &dgtk::Material::texture), "skin.ppm") << "as it is written";
+  put("mats/skin.ppm");
+  EXPECT_EQ(found(0, &dgtk::Material::texture), "mats/skin.ppm");
+  EXPECT_EQ(found(1, &dgtk::Material::texture), "skin.ppm") << "of another library";
+  EXPECT_EQ(found(0, &dgtk::Material::normalMap), "other.ppm");
+  put("deep/other.ppm");
+  EXPECT_EQ(found(0, &dgtk::Material::normalMap), "deep/other.ppm") << "from the model's folder, too";
+  put("mats/deep/other.ppm");
+  EXPECT_EQ(found(0, &dgtk::Material::normalMap), "mats/deep/other.ppm");
 }

@@ -288,7 +288,8 @@ const std::string twoPictures =
 
 TEST(Ply, EachFaceHasThePictureOfItsNumber)
 {
-  const auto model = readBytes("ply", threeFaces("property int texnumber\n", { "1", "0", "-1" }, twoPictures));
+  const auto model = readBytes("ply", threeFaces("property int texnumber\n", { "1", "0", "-1" }, twoPictures,
+                                        "property float s\nproperty float t\n", " 0 0"));
   ASSERT_EQ(model->parts.size(), 3u);
   const auto pictureOf = [&model](std::size_t part)
   {
@@ -358,6 +359,42 @@ TEST(Ply, ColoursOfOtherTypes)
     }
     EXPECT_EQ(readBytes("ply", text)->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0)) << type;
   }
+}
+
+TEST(Ply, ColoursThatHardlyHaveTheRangeOfTheirTypeAreWarnedOf)
+{
+  const auto warnings = [](const std::string& type, const std::string& color)
+  {
+    const std::string rgb = type + "red\n" + type + "green\n" + type + "blue\n";
+    auto ofFaces = readBytes("ply", threeFaces(rgb, { color, color, color }))->warnings;
+    EXPECT_EQ(readBytes("ply", threeFaces("", { "", "", "" }, "", rgb, " " + color))->warnings, ofFaces);
+    return ofFaces;
+  };
+  EXPECT_THAT(warnings("property int ", "255 51 0"),
+    testing::ElementsAre("colours are all but black: white is 4294967295 for their type"));
+  EXPECT_THAT(warnings("property ushort ", "0 255 0"),
+    testing::ElementsAre("colours are all but black: white is 65535 for their type"));
+  EXPECT_THAT(warnings("property ushort ", "0 256 0"), testing::IsEmpty());
+  EXPECT_THAT(warnings("property ushort ", "0 0 0"), testing::IsEmpty());
+  EXPECT_THAT(warnings("property uchar ", "0 255 0"), testing::IsEmpty());
+  EXPECT_THAT(warnings("property float ", "0 1.0001 0"), testing::IsEmpty());
+  EXPECT_THAT(warnings("property float ", "0 255 0"),
+    testing::ElementsAre("colours above 1 are drawn as 1, which is white for numbers with fractions"));
+}
+
+TEST(Ply, APictureIsNotTintedWhereTheFileSaysNoColour)
+{
+  const auto diffuse = [](const std::string& comments, const std::string& ofVertices, const std::string& vertexEnd)
+  {
+    const auto model = readBytes("ply", threeFaces("", { "", "", "" }, comments, ofVertices, vertexEnd));
+    return model->materials.at(std::size_t(model->parts.at(0).material)).diffuse;
+  };
+  const std::string picture = "comment TextureFile a.png\n";
+  const std::string uv = "property float s\nproperty float t\n";
+  const std::string rgb = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  EXPECT_EQ(diffuse(picture, uv, " 0 0"), Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(diffuse("", uv, " 0 0"), Eigen::Vector3d(0.8, 0.8, 0.8));
+  EXPECT_EQ(diffuse(picture, uv + rgb, " 0 0 255 51 0"), Eigen::Vector3d(1, 0.2, 0));
 }
 
 TEST(Ply, StripsBeginAnewWithTheirOwnTurn)

@@ -113,6 +113,7 @@ TEST(Stl, TextInAllItsShapes)
     EXPECT_EQ(other->triangles.size(), 12u);
     EXPECT_EQ(other->parts.at(0).name, text == mac ? "cube" : "CUBE");
   }
+  EXPECT_EQ(readBytes("stl", "\xef\xbb\xbf" + cube())->triangles.size(), 12u) << "a byte order mark";
   std::string line = facet({ "0 0 0", "1 0 0", "0 1 0" }) + facet({ "0 0 1", "1 0 1", "0 1 1" });
   std::replace(line.begin(), line.end(), '\n', ' ');
   EXPECT_EQ(readBytes("stl", "solid a\n" + line + "\nendsolid\n")->triangles.size(), 2u);
@@ -136,6 +137,10 @@ TEST(Stl, Binary)
   }
   EXPECT_EQ(readBytes("stl", binary() + "more")->triangles.size(), 1u);
   EXPECT_EQ(readBytes("stl", binary("solid by its header only") + "more")->triangles.size(), 1u);
+  EXPECT_EQ(readBytes("stl", binary("\xef\xbb\xbf"
+                                    "solid"))
+              ->triangles.size(),
+    1u);
   EXPECT_EQ(readBytes("stl", binary("", 0, 0))->triangles.size(), 0u);
 }
 

@@ -138,7 +138,7 @@ TEST(TextureFile, OtherExtensionsAreThoseOfAllPictures)
   const TemporaryFolder folder;
   writeFile(folder.path("wood.png"), "x");
   writeFile(folder.path("sky.EXR"), "x");
-  for (const std::string extension : { "webp", "exr", "HDR", "pcx" })
+  for (const std::string extension : { "webp", "exr", "HDR", "pcx", "psd" })
   {
     EXPECT_EQ(locateTexture(folder.path("m.ac"), "wood." + extension), folder.path("wood.png")) << extension;
   }
@@ -152,7 +152,8 @@ TEST(TextureFile, ShortNames)
   const auto find = [&](const std::string& name) { return !locateTexture(folder.path("m.3ds"), name).empty(); };
   EXPECT_TRUE(find("BRICKWAL.TGA"));
   EXPECT_TRUE(find("BRICKW~1.TGA"));
-  EXPECT_TRUE(find("brickwall_old.png")) << "equal in their first eight letters";
+  EXPECT_FALSE(find("brickwall_old.png")) << "both are long";
+  EXPECT_FALSE(find("brickwall_~old.png")) << "no short name";
   EXPECT_FALSE(find("BRICK.TGA"));
   EXPECT_FALSE(find("~1.TGA")) << "of nothing";
   writeFile(folder.path("PLANKS_O.png"), "x");
@@ -374,6 +375,10 @@ TEST(TextureFile, PicturesOfLight)
   EXPECT_NEAR(day->rgb[1], 0.502886, 1e-5); // IEC 61966-2-1
   EXPECT_EQ(day->rgb[2], 0);
   writeFile(folder.path("grey.pgm"), "P5 2 1 255\n\xff\xbc");
+  writeFile(folder.path("clear.tga"), tga(1, 1, 4, { 255, 188, 0, 64 })); // light is light, however opaque
+  const auto clear = dgtk::decodeRadiance(folder.path("clear.tga"), problem);
+  ASSERT_TRUE(clear) << problem;
+  EXPECT_EQ(clear->rgb, day->rgb);
   const auto grey = dgtk::decodeRadiance(folder.path("grey.pgm"), problem);
   ASSERT_TRUE(grey) << problem;
   for (std::size_t i = 0; i < 6; ++i)

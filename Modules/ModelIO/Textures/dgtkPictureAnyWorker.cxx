@@ -50,10 +50,7 @@ std::uint64_t mostExpansion(const std::string& format)
 std::unique_ptr<OIIO::ImageInput> open(const Request& request, const std::string& path, std::string& problem)
 {
   OIIO::ImageSpec config;
-  if (request.values == Values::Bytes)
-  {
-    config["oiio:UnassociatedAlpha"] = 1;
-  }
+  config["oiio:UnassociatedAlpha"] = 1;
   OIIO::ImageSpec spec;
   if (request.extension[0] != '\0')
   {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t mostEntries = 20000;
 
 const char* const imageExtensions[] = { "png", "jpg", "jpeg", "tga", "bmp", "rgb", "rgba", "sgi", "bw", "dds", "gif",
-  "tif", "tiff", "ppm", "pgm", "pnm", "pcx", "webp", "exr", "hdr" };
+  "tif", "tiff", "ppm", "pgm", "pnm", "pcx", "webp", "exr", "hdr", "psd" };
 
 std::string baseName(const std::string& path)
 {
@@ -44,15 +44,16 @@ bool isFile(const fs::path& path)
   return fs::is_regular_file(path, code);
 }
 
-/// The stem as DOS programs cut it: "foobarbaz" and "FOOBARBA" agree, and "FOOBAR~1" with both.
-bool sameShortStem(const std::string& a, const std::string& b)
+/// Whether a stem, in lower case, is what DOS programs cut another one to: "foobarba" and "foobar~1" of "foobarbaz".
+bool isShortStem(const std::string& cut, const std::string& whole)
 {
-  const std::size_t tilde = a.find('~');
-  if (tilde != std::string::npos && tilde >= 1)
-  {
-    return b.size() >= tilde && a.compare(0, tilde, b, 0, tilde) == 0;
-  }
-  return a.size() >= 8 && b.size() >= 8 && a.compare(0, 8, b, 0, 8) == 0;
+  const std::size_t kept = std::min<std::size_t>(cut.find('~'), 8);
+  return cut.size() <= 8 && kept > 0 && cut.size() >= kept && whole.compare(0, kept, cut, 0, kept) == 0;
+}
+
+bool sameShortStem(const std::string& wanted, const std::string& there)
+{
+  return isShortStem(wanted, there) || (there.find('~') == std::string::npos && isShortStem(there, wanted));
 }
 
 /// A folder beneath another one, by its name in any case; the name as it is where there is none.

@@ -136,7 +136,7 @@ double shadingNormalOf(const GeometryPoint& p, const double* found, double* expe
 double uvOf(const GeometryPoint& p, const double* found, double* expected)
 {
   const Model& model = *p.sight.instance(p.hit.object).model;
-  if (model.uvs.empty())
+  if (!model.hasUvs(p.hit.triangle))
   {
     expected[0] = expected[1] = nan;
     return std::isnan(found[0]) && std::isnan(found[1]) ? 0 : infinite;
