@@ -3,7 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkLongDocuments.h"
+#include "dgtkFolderContents.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
 #include "dgtkStage.h"
@@ -89,7 +89,7 @@ int runConvert(const Arguments& arguments)
   {
     throw UsageError("nothing can be converted to " + quoted(to) + " (expected a name in .scene, .json or .pov)");
   }
-  requireNoFileOfDataset(to);
+  requireOutsideDatasets(to);
   if (!pov)
   {
     const SceneDescription scene = readScene(from);

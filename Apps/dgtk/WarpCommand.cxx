@@ -7,7 +7,7 @@
 #include "dgtkFile.h"
 #include "dgtkJson.h"
 #include "dgtkLdi.h"
-#include "dgtkLongDocuments.h"
+#include "dgtkFolderContents.h"
 #include "dgtkText.h"
 #include "dgtkWarp.h"
 
@@ -271,7 +271,7 @@ void checkNames(const std::string& ldi, const std::string& picture, const std::s
     {
       throw UsageError(name + ": a picture is written as .png");
     }
-    requireNoFileOfDataset(name);
+    requireOutsideDatasets(name);
   }
 }
 

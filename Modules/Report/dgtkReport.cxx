@@ -302,7 +302,6 @@ ReportJson swatches()
 ReportResult writeReport(const ReportRequest& request, const ReportProgress& progress)
 {
   ReportResult result;
-  requireNoFileOfDataset(request.file);
   requireOutsideDatasets(request.file);
   const ReportJson verification = verificationOf(request); // what is wrong with documents is said before the work
   const ReportJson exports = exportsOf(request);

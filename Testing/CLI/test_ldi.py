@@ -328,7 +328,8 @@ class Warp(ManyCase):
                                         "t": [0, 0, 0], "width": 0, "height": 4}), "width is out of range")):
             self.refused("warp", self.ldi, "--to", self.write("c.json", text), *out, status=3, says=["c.json", says])
         other = next(row["path"] for row in load_json(self.path("d", "manifest.json"))["files"] if row["path"].endswith(".png"))
-        self.refused("warp", self.ldi, "--to", "left", "-o", self.path("d", other), status=2, says=(other, "is a file of the dataset in"))
+        for name in (other, "left/more.png"):
+            self.refused("warp", self.ldi, "--to", "left", "-o", self.path("d", name), status=2, says=f"{name}: lies in the dataset in")
         mask, here = self.path("m.png"), os.path.relpath(self.path("m.png"))
         before = os.path.getsize(self.ldi)
         for picture, holes in ((mask, here), (self.ldi, mask), (mask, self.ldi)):

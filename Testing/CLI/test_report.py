@@ -412,11 +412,10 @@ class Report(ManyCase):
         self.refused("report", folder, "-o", self.path("no", "where", "page.html"), status=4, says="page.html")
         self.refused("report", folder, "-o", page, "--verification", os.path.join(folder, "objects.json"), status=3, says="is not what a verification")
         self.refused("report", folder, "-o", page, "--pictures", "0", status=2, says="--pictures")
-        for name in ("manifest.json", "left/depth/000000.npy"):
-            self.refused("report", folder, "-o", os.path.join(folder, name), status=2, says="is a file of the dataset in")
-        for name in ("report.html", "left/depth/report.html", "no/where/report.html"):
+        for name in ("manifest.json", "left/depth/000000.npy", "report.html", "left/depth/report.html", "no/where/report.html"):
             self.refused("report", folder, "-o", os.path.join(folder, name), status=2, says=f"{name}: lies in the dataset in")
-        self.refused("convert", os.path.join(SCENES, "demo.json"), os.path.join(folder, "scene.json"), status=2, says="is a file of the dataset in")
+        for name in ("scene.json", "more.json"):
+            self.refused("convert", os.path.join(SCENES, "demo.json"), os.path.join(folder, name), status=2, says=f"{name}: lies in the dataset in")
         self.dgtk("verify", folder)
         # a damaged picture is a note, and the rest is there
         with open(os.path.join(folder, "left/depth/000000.npy"), "r+b") as file:

@@ -249,44 +249,4 @@ Manifest readManifestIn(const std::string& path)
   return manifest;
 }
 
-namespace
-{
-/// Whether a file of a folder is one of the dataset in it, or the manifest of a folder of datasets.
-bool isOfDataset(const std::string& folder, const std::string& name)
-{
-  bool isListed = name == manifestName;
-  try
-  {
-    readManifestIn(folder, [&](DatasetFile&& file) { isListed = isListed || file.path == name; });
-    return isListed;
-  }
-  catch (const InputError&)
-  {
-  }
-  try
-  {
-    readDatasets(folder);
-    return name == manifestName; // its datasets have theirs
-  }
-  catch (const InputError&) // of another program
-  {
-    return false;
-  }
-}
-} // namespace
-
-void requireNoFileOfDataset(const std::string& path)
-{
-  namespace fs = std::filesystem;
-  std::error_code code;
-  const fs::path whole = fs::canonical(path, code);
-  for (fs::path folder = whole.parent_path(); !code && folder.has_relative_path(); folder = folder.parent_path())
-  {
-    if (fs::exists(folder / manifestName) && isOfDataset(folder.string(), whole.lexically_relative(folder).string()))
-    {
-      throw UsageError(path + ": is a file of the dataset in " + folder.string() + "; name another file");
-    }
-  }
-}
-
 } // namespace dgtk

@@ -24,8 +24,6 @@ DGTKDATASETIO_EXPORT Manifest readManifestIn(
   const std::string& folder, const std::function<void(DatasetFile&&)>& visit);
 /// A manifest wherever it stands.
 DGTKDATASETIO_EXPORT Manifest readManifest(const std::string& path, const std::function<void(DatasetFile&&)>& visit);
-/// Throws UsageError for a file that a dataset lists: what is written there would damage it.
-DGTKDATASETIO_EXPORT void requireNoFileOfDataset(const std::string& path);
 DGTKDATASETIO_EXPORT void readCameras(const std::string& path, const std::function<void(CameraRecord&&)>& visit);
 DGTKDATASETIO_EXPORT void readPoses(const std::string& path, const std::function<void(PoseRecord&&)>& visit);
 

@@ -83,6 +83,24 @@ FolderContents folderContents(const std::string& path, const std::string& reques
   return isRunning(folder) ? FolderContents::Running : contentsOf(folder, readFolderRecords(folder), requestHash);
 }
 
+namespace
+{
+/// Whether a document is what it is read as: it may be another program's.
+template <typename Read>
+bool canBeRead(const Read& read)
+{
+  try
+  {
+    read();
+    return true;
+  }
+  catch (const InputError&)
+  {
+    return false;
+  }
+}
+} // namespace
+
 void requireOutsideDatasets(const std::string& path)
 {
   std::error_code code;
@@ -93,15 +111,12 @@ void requireOutsideDatasets(const std::string& path)
     {
       continue;
     }
-    try
+    const bool isManifest = whole == folder / manifestName; // also that of a folder of datasets
+    if (canBeRead([&] { readManifestIn(folder.string(), [](DatasetFile&&) {}); }) ||
+        (isManifest && canBeRead([&] { readDatasets(folder.string()); })))
     {
-      readManifestIn(folder.string(), [](DatasetFile&&) {});
+      throw UsageError(path + ": lies in the dataset in " + folder.string() + "; name a place outside");
     }
-    catch (const InputError&) // of a folder of datasets, or of another program
-    {
-      continue;
-    }
-    throw UsageError(path + ": lies in the dataset in " + folder.string() + "; name a place outside");
   }
 }
 

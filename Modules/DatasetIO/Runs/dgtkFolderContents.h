@@ -32,7 +32,8 @@ DGTKDATASETIO_EXPORT FolderContents folderContents(const std::string& folder, co
 DGTKDATASETIO_EXPORT std::string describe(FolderContents contents);
 
 /// Throws UsageError where a file or folder to be written is below the folder of a dataset, which is no sound one with
-/// a file that its manifest does not list. The path need not be there.
+/// a file that its manifest does not list, and where it is the manifest of a folder of datasets. The path need not be
+/// there.
 DGTKDATASETIO_EXPORT void requireOutsideDatasets(const std::string& path);
 
 /// A run is not begun because of what stands in its folder. The text names the folder.
