@@ -99,7 +99,7 @@ bool colorsVary(const aiMesh& mesh)
   return false;
 }
 
-Mesh converted(const aiScene& scene, const aiMesh& from, const NodeIndex& nodes)
+Mesh converted(const aiScene& scene, bool gltf, const aiMesh& from, const NodeIndex& nodes)
 {
   Mesh to;
   to.name = from.mName.C_Str();
@@ -109,11 +109,12 @@ Mesh converted(const aiScene& scene, const aiMesh& from, const NodeIndex& nodes)
   {
     to.normals = vectors(from.mNormals, from.mNumVertices);
   }
-  if (const aiVector3D* uv = from.mTextureCoords[uvChannel(scene, from.mMaterialIndex)])
+  const PicturePlace place = placeOf(scene, from.mMaterialIndex, gltf);
+  if (const aiVector3D* uv = from.mTextureCoords[place.channel])
   {
     for (unsigned i = 0; i < from.mNumVertices; ++i)
     {
-      to.uvs.push_back({ uv[i].x, uv[i].y });
+      to.uvs.push_back({ uv[i].x * place.scale[0] + place.offset[0], uv[i].y * place.scale[1] + place.offset[1] });
     }
   }
   for (unsigned i = 0; i < from.mNumFaces; ++i)
@@ -227,7 +228,7 @@ void convert(const aiScene& from, bool gltf, Scene& to)
   bool colored = false;
   for (unsigned i = 0; i < from.mNumMeshes; ++i)
   {
-    to.meshes.push_back(converted(from, *from.mMeshes[i], nodes));
+    to.meshes.push_back(converted(from, gltf, *from.mMeshes[i], nodes));
     colored = colored || (!gltf && colorsVary(*from.mMeshes[i]));
   }
   if (colored)

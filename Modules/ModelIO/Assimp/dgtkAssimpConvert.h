@@ -15,8 +15,14 @@ void convert(const aiScene& from, bool gltf, Scene& to);
 /// Materials and embedded pictures.
 void convertMaterials(const aiScene& from, bool gltf, Scene& to);
 
-/// Channel of texture coordinates that a material's picture uses.
-unsigned uvChannel(const aiScene& from, unsigned material);
+/// Where a material's pictures lie: all where the first one does.
+struct PicturePlace
+{
+  unsigned channel = 0; ///< of texture coordinates
+  std::array<float, 2> scale{ 1, 1 };
+  std::array<float, 2> offset{ 0, 0 }; ///< after scaling
+};
+PicturePlace placeOf(const aiScene& from, unsigned material, bool gltf);
 
 } // namespace dgtk::import
 

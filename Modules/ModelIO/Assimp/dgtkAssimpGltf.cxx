@@ -206,6 +206,51 @@ void repairMotion(GltfFile& file, const NodeMatch& nodes, Scene& scene)
   scene.animations = std::move(animations);
 }
 
+/// parent_from_node of a node, which the importer has in single precision.
+Matrix placeOf(const Json& node)
+{
+  Matrix to{};
+  if (node.contains("matrix"))
+  {
+    const auto columns = node.at("matrix").get<Matrix>();
+    for (std::size_t i = 0; i < 16; ++i)
+    {
+      to[i] = columns[i % 4 * 4 + i / 4];
+    }
+    return to;
+  }
+  using Vector = std::array<double, 3>;
+  const auto [x, y, z, w] = node.value("rotation", std::array<double, 4>{ 0, 0, 0, 1 });
+  const auto translation = node.value("translation", Vector{ 0, 0, 0 });
+  const auto scale = node.value("scale", Vector{ 1, 1, 1 });
+  const std::array<Vector, 3> rows{ Vector{ 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w) },
+    Vector{ 2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w) },
+    Vector{ 2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y) } };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    to[4 * i + 3] = translation[i];
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      to[4 * i + j] = rows[i][j] * scale[j];
+    }
+  }
+  to[15] = 1;
+  return to;
+}
+
+void repairPlaces(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
+{
+  const Json all = file.root().value("nodes", Json::array());
+  for (std::size_t n = 0; n < all.size(); ++n)
+  {
+    const std::int32_t index = nodes.of(n);
+    if (index != noIndex)
+    {
+      scene.nodes[static_cast<std::size_t>(index)].parent_from_node = placeOf(all[n]);
+    }
+  }
+}
+
 /// A list of names at the top of the file.
 std::set<std::string> extensionsOf(const GltfFile& file, const char* list)
 {
@@ -334,6 +379,7 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
       file.emplace(path, contentsOf);
       scene.declaredMaterials = std::int64_t(file->root().value("materials", Json::array()).size());
       nodes.emplace(*file, scene);
+      repairPlaces(*file, *nodes, scene);
     });
   const std::string ofMotion = nodes ? problemOf([&] { repairMotion(*file, *nodes, scene); }) : problem;
   const std::string ofMeshes = nodes ? problemOf([&] { repairMeshes(*file, *nodes, scene); }) : problem;

@@ -19,14 +19,14 @@ bool hasSkins(const std::string& path, const ReadContents& contentsOf);
 /// several types, and gives all nodes of a mesh the skin of the last one.
 std::string withoutSkins(std::string bytes);
 
-/// The bytes of a glTF file as Assimp 5.2 takes them: it wants the sets of an attribute in the order of their numbers,
-/// and extras to be objects. "" where they are none.
+/// The bytes of a glTF file as Assimp 5.2 takes them: it wants a scene, the sets of an attribute in the order of their
+/// numbers, and extras to be objects. "" where they are none.
 std::string inOrder(const std::string& bytes);
 
-/// Reads animations from a glTF file again, where Assimp 5.2 loses something: steps and splines between keys become
-/// lines, weights below 0 become 0, and nodes of equal names are confused; and what repairMeshes() and repairUses()
-/// say. What cannot be read is left as Assimp has it, with a warning, but what would be other triangles: that is
-/// Scene::error.
+/// Reads places of nodes again from a glTF file, in double precision, and animations, where Assimp 5.2 loses something:
+/// steps and splines between keys become lines, weights below 0 become 0, and nodes of equal names are confused; and
+/// what repairMeshes() and repairUses() say. What cannot be read is left as Assimp has it, with a warning, but what
+/// would be other triangles: that is Scene::error.
 void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& scene);
 
 /// Why Assimp may refuse a glTF file, in words, or "": what it says itself is seldom the reason.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAssimpConvert.h"
+#include "dgtkColladaText.h"
 #include "dgtkPortableMath.h"
 
 #include <assimp/GltfMaterial.h>
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <utility>
 
 namespace dgtk::import
 {
@@ -19,6 +22,8 @@ namespace
 constexpr unsigned largestSide = 16384;
 
 const aiTextureType pictureTypes[] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
+/// Of Collada, those that are drawn.
+const aiTextureType colladaTypes[] = { aiTextureType_DIFFUSE, aiTextureType_EMISSIVE, aiTextureType_OPACITY };
 
 std::array<double, 3> rgb(const aiColor4D& color) { return { color.r, color.g, color.b }; }
 
@@ -168,6 +173,104 @@ void readAlpha(const aiMaterial& from, Material& to)
   to.alphaCutoff = number(from, "$mat.gltf.alphaCutoff", 0.5);
 }
 
+bool has(const aiMaterial& from, aiTextureType type) { return from.GetTextureCount(type) > 0; }
+
+/// Whether Collada's ambient light has a picture that is not the one of colour, as it is as a rule.
+bool hasOwnAmbient(const aiMaterial& from)
+{
+  return has(from, aiTextureType_LIGHTMAP) &&
+         mapOf(from, aiTextureType_LIGHTMAP).name != mapOf(from, aiTextureType_DIFFUSE).name;
+}
+
+bool isInverse(const aiMaterial& from)
+{
+  return has(from, aiTextureType_OPACITY) && ofPicture(from, "$tex.blend", aiTextureType_OPACITY, 1) == inverseWeight;
+}
+
+/// Colours are white where a picture drives them.
+void readColladaMaps(const aiMaterial& from, Material& to)
+{
+  to.emissionMap = mapOf(from, aiTextureType_EMISSIVE);
+  to.ambient = hasOwnAmbient(from) ? std::array<double, 3>{ 0, 0, 0 } : to.ambient;
+  to.specular = has(from, aiTextureType_SPECULAR) ? std::array<double, 3>{ 0, 0, 0 } : to.specular;
+  aiColor4D light;
+  to.maskIsLuminance = from.Get(AI_MATKEY_COLOR_TRANSPARENT, light) == aiReturn_SUCCESS ? 1 : 0;
+  if (isInverse(from))
+  {
+    to.opacity = 1;
+    return;
+  }
+  const Map mask = mapOf(from, aiTextureType_OPACITY);
+  to.mask = mask.name == to.texture.name && to.maskIsLuminance == 0 ? to.mask : mask; // its own alpha counts
+}
+
+/// Elements of Collada's materials whose pictures are not drawn.
+std::set<std::string> unreadPictures(const aiMaterial& from)
+{
+  std::set<std::string> names;
+  for (const auto& [isUnread, name] :
+    { std::pair(hasOwnAmbient(from), "\"ambient\""), { has(from, aiTextureType_SPECULAR), "\"specular\"" },
+      { has(from, aiTextureType_REFLECTION), "\"reflective\"" }, { has(from, aiTextureType_NORMALS), "\"bump\"" },
+      { isInverse(from), "\"transparent\"" } })
+  {
+    if (isUnread)
+    {
+      names.insert(name);
+    }
+  }
+  return names;
+}
+
+aiUVTransform placementOf(const aiMaterial& from, aiTextureType type)
+{
+  aiUVTransform to;
+  from.Get(AI_MATKEY_UVTRANSFORM(type, 0), to);
+  return to;
+}
+
+/// Of Collada's pictures that are drawn, by Maya's words.
+void warnOfPlaces(const aiMaterial& from, std::vector<std::string>& warnings)
+{
+  std::vector<aiUVTransform> all;
+  for (const aiTextureType type : colladaTypes)
+  {
+    if (has(from, type))
+    {
+      all.push_back(placementOf(from, type));
+    }
+  }
+  const auto some = [&all](auto holds) { return std::any_of(all.begin(), all.end(), holds); };
+  const std::string name = "material \"" + std::string(from.GetName().C_Str()).substr(0, 200) + '"';
+  if (some([](const aiUVTransform& one) { return one.mRotation != 0; }))
+  {
+    warnings.push_back(name + " turns its pictures: they are drawn without that");
+  }
+  if (some([&all](const aiUVTransform& one)
+        { return one.mScaling != all.front().mScaling || one.mTranslation != all.front().mTranslation; }))
+  {
+    warnings.push_back(name + " has pictures in several places: all lie where the first does");
+  }
+}
+
+void warnOfPictures(const aiScene& from, const std::set<unsigned>& used, std::vector<std::string>& warnings)
+{
+  std::set<std::string> unread;
+  for (const unsigned index : used)
+  {
+    unread.merge(unreadPictures(*from.mMaterials[index]));
+    warnOfPlaces(*from.mMaterials[index], warnings);
+  }
+  std::string names;
+  for (const std::string& name : unread)
+  {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (!names.empty())
+  {
+    warnings.push_back("pictures of " + names + " are not drawn");
+  }
+}
+
 Material converted(const aiMaterial& from, bool gltf)
 {
   Material to;
@@ -202,6 +305,7 @@ Material converted(const aiMaterial& from, bool gltf)
   {
     to.specular = { 0, 0, 0 }; // an exponent of 0 would shine everywhere
   }
+  readColladaMaps(from, to);
   return to;
 }
 
@@ -231,22 +335,27 @@ Texture converted(const aiTexture& from)
 }
 } // namespace
 
-unsigned uvChannel(const aiScene& from, unsigned material)
+PicturePlace placeOf(const aiScene& from, unsigned material, bool gltf)
 {
+  PicturePlace to;
   if (material >= from.mNumMaterials)
   {
-    return 0;
+    return to;
   }
-  for (const aiTextureType type : pictureTypes)
+  const aiMaterial& of = *from.mMaterials[material];
+  const auto* const begin = gltf ? std::begin(pictureTypes) : std::begin(colladaTypes);
+  const auto* const end = gltf ? std::end(pictureTypes) : std::end(colladaTypes);
+  const auto* const first = std::find_if(begin, end, [&of](aiTextureType type) { return has(of, type); });
+  if (first != end)
   {
     int channel = 0;
-    if (from.mMaterials[material]->GetTextureCount(type) > 0)
-    {
-      from.mMaterials[material]->Get(AI_MATKEY_UVWSRC(type, 0), channel);
-      return channel > 0 && channel < AI_MAX_NUMBER_OF_TEXTURECOORDS ? static_cast<unsigned>(channel) : 0;
-    }
+    of.Get(AI_MATKEY_UVWSRC(*first, 0), channel);
+    to.channel = channel > 0 && channel < AI_MAX_NUMBER_OF_TEXTURECOORDS ? static_cast<unsigned>(channel) : 0;
+    const aiUVTransform transform = gltf ? aiUVTransform() : placementOf(of, *first);
+    to.scale = { transform.mScaling.x, transform.mScaling.y };
+    to.offset = { transform.mTranslation.x, transform.mTranslation.y };
   }
-  return 0;
+  return to;
 }
 
 void convertMaterials(const aiScene& from, bool gltf, Scene& to)
@@ -255,10 +364,21 @@ void convertMaterials(const aiScene& from, bool gltf, Scene& to)
   {
     to.materials.push_back(converted(*from.mMaterials[i], gltf));
   }
-  if (gltf && std::any_of(from.mMeshes, from.mMeshes + from.mNumMeshes,
-                [&from](const aiMesh* mesh) {
-                  return mesh->mMaterialIndex < from.mNumMaterials && isNearest(*from.mMaterials[mesh->mMaterialIndex]);
-                }))
+  std::set<unsigned> used;
+  std::for_each(from.mMeshes, from.mMeshes + from.mNumMeshes,
+    [&](const aiMesh* mesh)
+    {
+      if (mesh->mMaterialIndex < from.mNumMaterials)
+      {
+        used.insert(mesh->mMaterialIndex);
+      }
+    });
+  if (!gltf)
+  {
+    warnOfPictures(from, used, to.warnings);
+  }
+  else if (std::any_of(
+             used.begin(), used.end(), [&from](unsigned index) { return isNearest(*from.mMaterials[index]); }))
   {
     to.warnings.emplace_back("pictures whose magFilter is NEAREST are interpolated between their texels all the same");
   }

@@ -63,10 +63,12 @@ struct Material
   Map metallicRoughnessMap;
   Map emissionMap;
   Map occlusionMap;
+  Map mask;                         ///< how much is there: its alpha where it has one, its luminance otherwise
+  std::int32_t maskIsLuminance = 0; ///< whatever its alpha
 };
 
-constexpr std::array<Map Material::*, 5> mapsOfMaterials{ &Material::texture, &Material::normalMap,
-  &Material::metallicRoughnessMap, &Material::emissionMap, &Material::occlusionMap };
+constexpr std::array<Map Material::*, 6> mapsOfMaterials{ &Material::texture, &Material::normalMap,
+  &Material::metallicRoughnessMap, &Material::emissionMap, &Material::occlusionMap, &Material::mask };
 
 /// `height` is 0 for an encoded picture (PNG, JPEG), whose bytes are `data`; else RGBA rows, top to bottom.
 struct Texture
@@ -195,7 +197,7 @@ void io(A& a, Material& m)
   a(m.name), a(m.ambient), a(m.diffuse), a(m.specular), a(m.emission), a(m.shininess), a(m.opacity), a(m.twoSided);
   a(m.alpha), a(m.alphaCutoff), a(m.texture);
   a(m.physical), a(m.metallic), a(m.roughness), a(m.normalScale), a(m.occlusionStrength);
-  a(m.normalMap), a(m.metallicRoughnessMap), a(m.emissionMap), a(m.occlusionMap);
+  a(m.normalMap), a(m.metallicRoughnessMap), a(m.emissionMap), a(m.occlusionMap), a(m.mask), a(m.maskIsLuminance);
 }
 template <class A>
 void io(A& a, Texture& t)

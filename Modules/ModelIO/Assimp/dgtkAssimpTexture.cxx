@@ -156,7 +156,10 @@ int AssimpMaterials::add(std::int32_t index)
   to.occlusionMap = this->textureOf(from.occlusionMap);
   to.normalScale = from.normalScale;
   to.occlusionStrength = from.occlusionStrength;
-  const int made = this->Builder.addMaterial(to, alphaOf(from));
+  MaterialAlpha alpha = alphaOf(from);
+  alpha.mask = this->textureOf(from.mask);
+  alpha.value = from.maskIsLuminance != 0 ? MaskValue::Luminance : MaskValue::Usual;
+  const int made = this->Builder.addMaterial(to, alpha);
   this->Known[index] = made;
   return made;
 }

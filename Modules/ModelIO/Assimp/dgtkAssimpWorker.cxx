@@ -15,7 +15,6 @@
 #include <assimp/Importer.hpp>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -293,7 +292,7 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   const auto contents = [files](const std::string& name) { return files->contentsOf(name); };
   files->Skinned = format == "gltf" && dgtk::import::hasSkins(path, contents) ? path : std::string();
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  const aiScene* found = importer.ReadFile(path, format == "gltf" ? 0u : unsigned(aiProcess_TransformUVCoords));
+  const aiScene* found = importer.ReadFile(path, 0u);
   if (!found && format == "gltf" && files->LongNumber.empty())
   {
     files->Text = dgtk::import::inOrder(contents(path));

@@ -76,9 +76,21 @@ void ColladaSurvey::lookAtNode(const Markup& node)
 
 void ColladaSurvey::lookAtCoordinates(const Markup& markup)
 {
-  if (markup.isOf("diffuse"))
+  // elements whose pictures are drawn: they lie where the first one's does
+  static const std::map<std::string, int> drawn{ { "diffuse", 0 }, { "emission", 1 }, { "transparent", 2 } };
+  const auto element =
+    std::find_if(drawn.begin(), drawn.end(), [&markup](const auto& entry) { return markup.isOf(entry.first); });
+  if (element != drawn.end())
   {
-    this->IsDiffuse = !markup.isEnd() && !markup.isEmpty();
+    this->Element = markup.isEnd() || markup.isEmpty() ? -1 : element->second;
+  }
+  else if (markup.isOf("effect"))
+  {
+    for (const auto& [rank, channel] : this->Pictures)
+    {
+      (rank == this->Pictures.begin()->first ? this->Drawn : this->Beside).insert(channel);
+    }
+    this->Pictures.clear();
   }
   else if (markup.isEnd())
   {
@@ -104,9 +116,9 @@ void ColladaSurvey::lookAtCoordinates(const Markup& markup)
   {
     this->Symbol = markup.attribute("symbol");
   }
-  else if (markup.isOf("texture") && this->IsDiffuse)
+  else if (markup.isOf("texture") && this->Element >= 0)
   {
-    this->Drawn.insert(markup.attribute("texcoord"));
+    this->Pictures[this->Element] = markup.attribute("texcoord");
   }
   else if (markup.isOf("input") && markup.attribute("semantic") == "TEXCOORD")
   {
@@ -125,21 +137,35 @@ void ColladaSurvey::lookAtCoordinates(const Markup& markup)
 
 void ColladaSurvey::bind()
 {
+  std::map<std::pair<std::string, std::string>, std::set<int>> beside;
   for (const Binding& binding : this->Bindings)
   {
     const auto skinned = this->Skinned.find(binding.instance);
     const std::string& geometry = skinned == this->Skinned.end() ? binding.instance : skinned->second;
-    if (this->Drawn.count(binding.channel) > 0 && this->sets[geometry].count(binding.set) > 0)
+    const bool isBeside = this->Drawn.count(binding.channel) == 0;
+    if ((isBeside && this->Beside.count(binding.channel) == 0) || this->sets[geometry].count(binding.set) == 0)
     {
-      this->bound[{ geometry, binding.symbol }].insert(binding.set);
+      continue;
+    }
+    (isBeside ? beside : this->bound)[{ geometry, binding.symbol }].insert(binding.set);
+    if (!isBeside)
+    {
       this->channels.insert(binding.channel);
     }
   }
+  this->HasSeveral =
+    std::any_of(this->bound.begin(), this->bound.end(), [](const auto& row) { return row.second.size() > 1; }) ||
+    std::any_of(beside.begin(), beside.end(),
+      [this](const auto& row)
+      {
+        const auto first = this->bound.find(row.first);
+        return first != this->bound.end() && first->second != row.second;
+      });
 }
 
 void ColladaSurvey::warnOf()
 {
-  if (std::any_of(this->bound.begin(), this->bound.end(), [](const auto& row) { return row.second.size() > 1; }))
+  if (this->HasSeveral)
   {
     this->warnings.emplace_back("materials bind their pictures to several sets of texture coordinates: one is drawn");
   }

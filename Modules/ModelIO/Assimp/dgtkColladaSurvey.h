@@ -45,17 +45,20 @@ private:
 
   std::map<std::string, std::string> Skinned; ///< geometries by controller
   std::vector<Binding> Bindings;
-  std::set<std::string> Drawn; ///< channels of pictures of colour
-  std::string Geometry;        ///< where the walk is, as all of the following
+  std::map<int, std::string> Pictures; ///< of an effect: the channels of those that are drawn, the first one's first
+  std::set<std::string> Drawn;         ///< channels of the first ones
+  std::set<std::string> Beside;        ///< of the others
+  std::string Geometry;                ///< where the walk is, as all of the following
   std::string Controller;
   std::string Instance;
   std::string Symbol;
-  int Extras = 0; ///< open ones
-  bool IsDiffuse = false;
+  int Extras = 0;   ///< open ones
+  int Element = -1; ///< whose picture may stand here, of those that are drawn
   bool IsAnimation = false;
-  bool HasTwins = false;  ///< joints of one sid
-  bool HasSkins = false;  ///< which are drawn
-  bool HasCurves = false; ///< keys with something else than a line between them
+  bool HasSeveral = false; ///< sets of texture coordinates that one material is bound to
+  bool HasTwins = false;   ///< joints of one sid
+  bool HasSkins = false;   ///< which are drawn
+  bool HasCurves = false;  ///< keys with something else than a line between them
 };
 
 /// A set's number as it is written; -1 when it is none.

@@ -207,6 +207,113 @@ std::string lookat(const std::string& text)
   return written(n);
 }
 
+/// Version 1.5 as 1.4.1, of which Assimp 5.2 reads pictures, and names of files without an element of their own in
+/// both.
+std::string inOldWords(const Markup& markup, const std::string& tag, bool isInInit)
+{
+  const bool isNew = markup.begins("COLLADA") && markup.attribute("version").rfind("1.5", 0) == 0;
+  return isNew ? markup.with("COLLADA", "version", "1.4.1") : markup.isOf("ref") && isInInit ? std::string() : tag;
+}
+
+/// Says in a picture's element what Assimp 5.2 does not find elsewhere: the image itself, whose id may be that of a
+/// parameter, too; in Maya's words how its sampler goes on beyond it, unless the element says so; and whether its
+/// values say how much is not there.
+class Samplers
+{
+public:
+  /// What to write instead of a tag; `text` is what stands before the markup.
+  std::string tag(const std::string& text, const Markup& markup, const std::string& tag)
+  {
+    const bool isEnd = markup.isEnd();
+    const bool isOver = isEnd || markup.isEmpty();
+    if (markup.isOf("effect"))
+    {
+      this->Parameters.clear();
+    }
+    else if (markup.isOf("newparam"))
+    {
+      this->Sid = isOver ? std::string() : markup.attribute("sid");
+      return isOver ? tag : markup.with("newparam", "sid", mark + this->Sid);
+    }
+    else if (!this->Sid.empty())
+    {
+      this->lookAt(text, markup);
+    }
+    else if (markup.isOf("transparent"))
+    {
+      const std::string opaque = isOver ? std::string() : markup.attribute("opaque");
+      const bool isInverse = opaque == "A_ZERO" || opaque == "RGB_ZERO";
+      this->Last = isInverse ? extra("<weighting>" + std::to_string(inverseWeight) + "</weighting>") : std::string();
+    }
+    else if (markup.isOf("texture"))
+    {
+      return isEnd ? this->Last + tag : this->texture(markup, tag);
+    }
+    return tag;
+  }
+
+private:
+  struct Parameter
+  {
+    std::string image; ///< its id, or:
+    std::string surface;
+    std::string wraps;
+  };
+
+  static std::string extra(const std::string& said)
+  {
+    return said.empty() ? said : R"(<extra><technique profile="MAYA">)" + said + "</technique></extra>";
+  }
+
+  void lookAt(const std::string& text, const Markup& markup)
+  {
+    Parameter& parameter = this->Parameters[this->Sid];
+    if (markup.begins("instance_image"))
+    {
+      parameter.image = idOf(markup.attribute("url"));
+    }
+    else if (markup.isEnd() && markup.isOf("init_from"))
+    {
+      parameter.image = text;
+    }
+    else if (markup.isEnd() && markup.isOf("source"))
+    {
+      parameter.surface = text;
+    }
+    else if (markup.isEnd() && (markup.isOf("wrap_s") || markup.isOf("wrap_t")) && text != "WRAP")
+    {
+      const bool isMirror = text == "MIRROR";
+      const std::string element = std::string(isMirror ? "mirror" : "wrap") + (markup.isOf("wrap_s") ? 'U' : 'V');
+      parameter.wraps += '<' + element + (isMirror ? ">1</" : ">0</") + element + '>';
+    }
+  }
+
+  std::string texture(const Markup& markup, const std::string& tag) const
+  {
+    std::string name = markup.attribute("texture");
+    std::string wraps;
+    if (const auto sampler = this->Parameters.find(name); sampler != this->Parameters.end())
+    {
+      const auto surface = this->Parameters.find(sampler->second.surface);
+      const bool hasSurface = sampler->second.image.empty() && surface != this->Parameters.end();
+      const Parameter& named = hasSurface ? surface->second : sampler->second;
+      name = named.image.empty() ? sampler->second.surface : named.image;
+      wraps = extra(sampler->second.wraps);
+    }
+    std::string to = Markup(tag, 0).with("texture", "texture", name);
+    if (!markup.isEmpty())
+    {
+      return to + wraps;
+    }
+    to.erase(to.size() - 2);
+    return to + '>' + wraps + this->Last + "</texture>";
+  }
+
+  std::map<std::string, Parameter> Parameters; ///< of an effect, by sid
+  std::string Sid;                             ///< of the one that is open
+  std::string Last;                            ///< what a picture's element ends with
+};
+
 /// A tag, and black behind it for what a shading model may leave out: Assimp 5.2 has greys of its own. What the model
 /// says comes later, and counts.
 std::string withBlack(const Markup& markup, std::string tag)
@@ -235,6 +342,8 @@ ColladaText colladaText(const std::string& xml)
   PictureNames pictures;
   NodeNames nodes(survey);
   Coordinates coordinates(survey);
+  Samplers samplers;
+  bool isInInit = false;
   std::string (*meant)(const std::string&) = nullptr; // of the text behind the last markup
   forEachMarkup(xml,
     [&](std::size_t begin, std::size_t end, const Markup& markup)
@@ -255,7 +364,9 @@ ColladaText colladaText(const std::string& xml)
       }
       else if (!markup.isOf("unit"))
       {
-        to.text += withBlack(markup, coordinates.tag(markup));
+        const std::string tag = inOldWords(markup, withBlack(markup, coordinates.tag(markup)), isInInit);
+        to.text += samplers.tag(xml.substr(begin, end - begin), markup, tag);
+        isInInit = markup.isOf("init_from") ? !markup.isEnd() && !markup.isEmpty() : isInInit;
       }
     });
   return to;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -37,16 +38,44 @@ std::string word(std::size_t value)
   return bytes;
 }
 
+/// A file without scenes, as it may be, is one of all nodes.
+Json withScene(Json root)
+{
+  if (!root.is_object() || root.contains("scenes") || !root.contains("nodes") || !root["nodes"].is_array())
+  {
+    return root;
+  }
+  std::set<std::size_t> children;
+  for (const Json& node : root["nodes"])
+  {
+    for (const Json& child : node.value("children", Json::array()))
+    {
+      children.insert(child.get<std::size_t>());
+    }
+  }
+  Json roots = Json::array();
+  for (std::size_t n = 0; n < root["nodes"].size(); ++n)
+  {
+    if (children.count(n) == 0)
+    {
+      roots.push_back(n);
+    }
+  }
+  root["scenes"] = Json::array({ { { "nodes", roots } } });
+  root.erase("scene");
+  return root;
+}
+
 /// The JSON of a file, and where what follows it begins.
 std::pair<Json, std::size_t> parsed(const std::string& bytes)
 {
   if (bytes.compare(0, 4, "glTF") != 0)
   {
-    return { Json::parse(bytes), bytes.size() };
+    return { withScene(Json::parse(bytes)), bytes.size() };
   }
   const std::size_t length = littleWord(bytes, 12);
   // some pad it with bytes that are 0
-  return { Json::parse(bytes.substr(20, length).c_str()), 20 + (length + 3) / 4 * 4 };
+  return { withScene(Json::parse(bytes.substr(20, length).c_str())), 20 + (length + 3) / 4 * 4 };
 }
 
 std::string fromBase64(const std::string& text, std::size_t begin)

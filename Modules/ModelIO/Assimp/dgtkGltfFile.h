@@ -21,7 +21,7 @@ public:
   static constexpr int floatType = 5126; ///< of an accessor's components
 
   [[noreturn]] static void fail(const char* what);
-  /// The bytes of a file whose names are sorted, without extras that are no objects.
+  /// The bytes of a file whose names are sorted, with a scene, without extras that are no objects.
   static std::string inOrder(const std::string& bytes);
 
   GltfFile(const std::string& path, const ReadContents& contentsOf);

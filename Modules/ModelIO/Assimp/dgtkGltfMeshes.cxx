@@ -49,9 +49,19 @@ public:
     }
   }
 
+  void finish()
+  {
+    if (this->LeftOut > 0)
+    {
+      this->Whole.warnings.push_back(std::to_string(this->LeftOut) + (this->LeftOut == 1 ? " surface" : " surfaces") +
+                                     " left out: a vertex that does not exist");
+    }
+  }
+
 private:
   void run(const Json& primitive, Mesh& mesh)
   {
+    this->count(primitive, mesh.faceSizes.size());
     const Json& attributes = primitive.at("attributes");
     const Json none = Json::object();
     const Json& material =
@@ -64,16 +74,62 @@ private:
     }
     if (attributes.contains("COLOR_0"))
     {
-      this->colors(attributes.at("COLOR_0"), material.value("alphaMode", "OPAQUE") == "BLEND", mesh);
+      this->colors(attributes.at("COLOR_0"), material.value("alphaMode", "OPAQUE"), mesh);
       this->light(material, this->Whole.materials.at(std::size_t(mesh.material)));
     }
     const std::vector<Placement> all = placementsOf(material);
-    this->coordinates(attributes, all.empty() ? Placement() : all.front(), mesh);
-    if (std::any_of(all.begin(), all.end(), [&all](const Placement& p) { return !(p == all.front()); }) &&
-        this->Said.insert(primitive.at("material").get<std::size_t>()).second)
+    for (const Placement& picture : all)
     {
-      this->Whole.warnings.push_back("material \"" + material.value("name", "").substr(0, 200) +
-                                     "\" has pictures in several places: all lie where the first does");
+      this->lookAt(picture.texture);
+    }
+    this->coordinates(attributes, all.empty() ? Placement() : all.front(), mesh);
+    if (std::any_of(all.begin(), all.end(), [&all](const Placement& p) { return !(p == all.front()); }))
+    {
+      this->say("material \"" + material.value("name", "").substr(0, 200) +
+                "\" has pictures in several places: all lie where the first does");
+    }
+  }
+
+  /// Once.
+  void say(const std::string& warning)
+  {
+    if (this->Said.insert(warning).second)
+    {
+      this->Whole.warnings.push_back(warning);
+    }
+  }
+
+  /// The importer passes over some pictures without a word.
+  void lookAt(const Json& index)
+  {
+    const Json none = Json::object();
+    const Json& texture = index.is_null() ? none : this->File.item("textures", index);
+    if (!texture.contains("source"))
+    {
+      const Json extensions = texture.value("extensions", none);
+      for (const auto& extension : extensions.items())
+      {
+        this->say("pictures of the glTF extension \"" + extension.key().substr(0, 100) + "\" are not read");
+      }
+      return;
+    }
+    const std::string uri = this->File.item("images", texture.at("source")).value("uri", "");
+    const std::string head = uri.rfind("data:", 0) == 0 ? uri.substr(0, uri.find(',')) : ";base64";
+    if (head.find(";base64") == std::string::npos)
+    {
+      this->say("pictures in the file that are not base64 are not read");
+    }
+  }
+
+  /// The importer leaves out triangles without a word.
+  void count(const Json& primitive, std::size_t found)
+  {
+    const int mode = primitive.value("mode", 4);
+    if (mode >= 4 && primitive.contains("indices"))
+    {
+      const std::size_t corners = this->File.item("accessors", primitive.at("indices")).at("count");
+      const std::size_t all = mode == 4 ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
+      this->LeftOut += all - std::min(all, found);
     }
   }
 
@@ -126,8 +182,9 @@ private:
   }
 
   /// Linear light; alpha counts where the material is to be seen through.
-  void colors(std::size_t accessor, bool translucent, Mesh& mesh)
+  void colors(std::size_t accessor, const std::string& alphaMode, Mesh& mesh)
   {
+    bool cuts = false;
     const std::size_t channels = this->File.item("accessors", accessor).at("type") == "VEC4" ? 4 : 3;
     const std::vector<double> all = this->File.ofVertices(accessor, channels, Integers::Shares, mesh);
     mesh.colors.resize(mesh.positions.size());
@@ -137,7 +194,13 @@ private:
       {
         mesh.colors[i][c] = byteOf(portable::srgbFromLinear(all[channels * i + c]));
       }
-      mesh.colors[i][3] = channels == 4 && translucent ? byteOf(all[channels * i + 3]) : 255;
+      const std::uint8_t alpha = channels == 4 ? byteOf(all[channels * i + 3]) : 255;
+      mesh.colors[i][3] = alphaMode == "BLEND" ? alpha : 255;
+      cuts = cuts || (alphaMode == "MASK" && alpha < 255);
+    }
+    if (cuts)
+    {
+      this->say("the alpha of colours of vertices does not count where alphaMode is MASK");
     }
   }
 
@@ -191,8 +254,9 @@ private:
   GltfFile& File;
   Scene& Whole;
   std::vector<bool> IsDone;
-  std::set<std::size_t> Said;
+  std::set<std::string> Said;
   std::set<std::size_t> Glowing;
+  std::size_t LeftOut = 0; ///< triangles
 };
 } // namespace
 
@@ -208,6 +272,7 @@ void repairMeshes(GltfFile& file, const NodeMatch& nodes, Scene& scene)
       repair.run(all[n], scene.nodes[static_cast<std::size_t>(index)].meshes);
     }
   }
+  repair.finish();
 }
 
 } // namespace dgtk::import

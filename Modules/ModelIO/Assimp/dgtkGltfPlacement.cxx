@@ -14,6 +14,7 @@ Placement placementOf(const Json& info)
 {
   Placement to;
   to.set = to.importedSet = info.value("texCoord", std::size_t(0));
+  to.texture = info.value("index", Json());
   const Json none = Json::object();
   const Json& extensions = info.contains("extensions") ? info.at("extensions") : none;
   if (extensions.contains(textureTransform))

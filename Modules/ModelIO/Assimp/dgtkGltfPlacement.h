@@ -20,6 +20,7 @@ struct Placement
   std::array<double, 2> offset{ 0, 0 };
   double rotation = 0; ///< radians, counter-clockwise as a picture is seen
   std::array<double, 2> scale{ 1, 1 };
+  GltfFile::Json texture{}; ///< of the file: its index, as it is written
 
   bool isPlain() const { return *this == Placement{ this->set, 0, { 0, 0 }, 0, { 1, 1 } }; }
   bool operator==(const Placement& o) const

@@ -353,3 +353,25 @@ TEST(Gltf, StrengthOfWhatGlows)
   EXPECT_EQ(emissionOf({ { name, { { "emissiveStrength", 4 } } }, { "KHR_materials_unlit", none } })[0], 1)
     << "its colour, whatever it is that glows";
 }
+
+TEST(Gltf, TexturesThatAreNotReadHaveAWarning)
+{
+  GltfMaker maker = placed({ { "index", 0 } }, { { "emissiveTexture", { { "index", 1 } } } });
+  maker.json["extensionsUsed"] = { "MSFT_texture_dds" };
+  const Json source = { { "MSFT_texture_dds", { { "source", 0 } } } };
+  const auto warningsOf = [&maker](const Json& texture)
+  {
+    maker.json["textures"] = { { { "source", 0 } }, texture };
+    auto warnings = readBytes("gltf", maker.gltf())->warnings;
+    warnings.erase(std::remove_if(warnings.begin(), warnings.end(),
+                     [](const std::string& line) { return line.find("paint.png") != std::string::npos; }),
+      warnings.end());
+    return warnings;
+  };
+  EXPECT_THAT(warningsOf({ { "extensions", source } }),
+    testing::ElementsAre("pictures of the glTF extension \"MSFT_texture_dds\" are not read"));
+  EXPECT_THAT(warningsOf({ { "source", 0 }, { "extensions", source } }), testing::IsEmpty());
+  maker.json["images"].push_back({ { "uri", "data:image/png,%89PNG%0D%0A" } });
+  EXPECT_THAT(
+    warningsOf({ { "source", 1 } }), testing::ElementsAre("pictures in the file that are not base64 are not read"));
+}

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 using namespace dgtk::test;
 using Json = nlohmann::json;
 
@@ -264,4 +266,72 @@ TEST(GltfMeshes, ExtensionsThatAFileNeeds)
     EXPECT_THAT(
       error.what(), testing::HasSubstr("needs the glTF extension EXT_meshopt_compression, which is not read"));
   }
+}
+
+TEST(GltfMeshes, TrianglesOfVerticesThatDoNotExist)
+{
+  for (const auto& [mode, indices, left] :
+    { std::tuple(4, std::vector<std::uint8_t>{ 0, 1, 2, 0, 1, 9, 9, 1, 2, 0 }, "2 surfaces"),
+      { 5, { 0, 1, 2, 9 }, "1 surface" }, { 6, { 0, 1, 2, 9 }, "1 surface" }, { 4, { 0, 1, 2, 0 }, "" } })
+  {
+    GltfMaker maker = bare();
+    attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+    maker.json["meshes"][0]["primitives"][0]["indices"] = maker.bytes("SCALAR", indices);
+    maker.json["meshes"][0]["primitives"][0]["mode"] = mode;
+    maker.json["nodes"] = { { { "mesh", 0 } }, { { "mesh", 0 } } };
+    maker.json["scenes"][0]["nodes"] = { 0, 1 };
+    const auto model = readBytes("glb", maker.glb());
+    EXPECT_EQ(model->triangles.size(), 2u);
+    const std::string warning = std::string(left) + " left out: a vertex that does not exist";
+    EXPECT_THAT(model->warnings, testing::ElementsAreArray(std::vector<std::string>(*left == '\0' ? 0 : 1, warning)));
+  }
+}
+
+TEST(GltfMeshes, PlacesOfNodesAreNotRounded)
+{
+  GltfMaker maker = bare();
+  attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+  maker.json["nodes"] = { { { "translation", { 500000.123, 4649776.456, 0 } }, { "children", { 1 } } },
+    { { "matrix", { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -500000.1, -4649776.4, 0.1, 1 } }, { "mesh", 0 } } };
+  const auto model = readBytes("glb", maker.glb());
+  EXPECT_LT((model->boundsMin - Eigen::Vector3d(0.023, 0.056, 0.1)).norm(), 1e-8);
+  // two thirds of a turn about (1, 1, 1), of what is scaled
+  maker.json["nodes"] = { { { "translation", { 0.1, 0, 0 } }, { "rotation", { 0.5, 0.5, 0.5, 0.5 } },
+    { "scale", { 3, 0.7, 2 } }, { "mesh", 0 } } };
+  const auto turned = readBytes("glb", maker.glb());
+  const auto& t = turned->triangles.at(0);
+  expectNear(turned->rest->positions[t[1]], { 0.1, 3, 0 });
+  expectNear(turned->rest->positions[t[2]], { 0.1, 0, 0.7 });
+}
+
+/// A library of nodes, as it may be.
+TEST(GltfMeshes, WithoutScenesAllNodesAreThere)
+{
+  GltfMaker maker = bare();
+  attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+  maker.json["nodes"] = { { { "mesh", 0 }, { "translation", { 5, 0, 0 } } },
+    { { "children", { 0 } }, { "translation", { 0, 7, 0 } } }, { { "mesh", 0 } } };
+  maker.json.erase("scenes");
+  for (const auto& model : { readBytes("glb", maker.glb()), readBytes("gltf", maker.gltf()) })
+  {
+    EXPECT_EQ(model->triangles.size(), 2u);
+    EXPECT_EQ(model->boundsMax, Eigen::Vector3d(6, 8, 0));
+    EXPECT_THAT(model->warnings, testing::IsEmpty());
+  }
+}
+
+TEST(GltfMeshes, AlphaOfColoursOfWhatIsAMask)
+{
+  GltfMaker maker = bare();
+  attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+  attributesOf(maker)["COLOR_0"] = maker.floats("VEC4", { 1, 1, 1, 1, 1, 1, 1, 0.25, 1, 1, 1, 1 });
+  const auto warningsOf = [&maker](const char* mode)
+  {
+    maker.json["materials"][0]["alphaMode"] = mode;
+    return readBytes("glb", maker.glb())->warnings;
+  };
+  EXPECT_THAT(warningsOf("MASK"),
+    testing::ElementsAre("the alpha of colours of vertices does not count where alphaMode is MASK"));
+  EXPECT_THAT(warningsOf("BLEND"), testing::IsEmpty());
+  EXPECT_THAT(warningsOf("OPAQUE"), testing::IsEmpty());
 }
