@@ -5,9 +5,9 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkFolderContents.h"
 #include "dgtkJson.h"
 #include "dgtkLdi.h"
-#include "dgtkFolderContents.h"
 #include "dgtkText.h"
 #include "dgtkWarp.h"
 

@@ -97,6 +97,10 @@ struct Material
   double normalScale = 1;        ///< times the x and y of normalMap
   double bumpScale = 1;          ///< scene units between black and white
   double occlusionStrength = 1;  ///< [0, 1]
+  /// Of surfaces without texture coordinates, a copy of another: whatever a scene says, it has no pictures, and it does
+  /// not glow where a picture says what of the other does.
+  bool isBare = false;
+  bool isDark = false;
 };
 
 /// The textures of a material, that of its colour first.

@@ -42,7 +42,10 @@ void overrideNumbers(const MaterialOverride& change, double frame, Material& mat
   put(change.ambient, material.ambient);
   put(change.diffuse, material.diffuse);
   put(change.specular, material.specular);
-  put(change.emission, material.emission);
+  if (!material.isDark)
+  {
+    put(change.emission, material.emission);
+  }
   put(change.shininess, material.shininess);
   put(change.opacity, material.opacity);
   put(change.bumpScale, material.bumpScale);

@@ -278,10 +278,11 @@ void StageModels::addTextures()
     for (std::size_t k = 0; k < file.pictures.size(); ++k)
     {
       this->Textures[{ file.model.get(), file.pictures[k] }] = static_cast<int>(file.ownTextures + k);
-      if (file.model->uvs.empty() && file.model->textures[file.ownTextures + k].image)
+      const bool none = file.model->uvs.empty();
+      if ((none || !file.model->unplaced.empty()) && file.model->textures[file.ownTextures + k].image)
       {
         this->warn(this->Scene.title() + ": texture " + quoted(file.pictures[k]) + ": " + file.model->path +
-                   " has no texture coordinates");
+                   (none ? " has no texture coordinates" : " has surfaces without texture coordinates"));
       }
     }
   }
@@ -396,7 +397,16 @@ void StageModels::applyOverride(const ObjectDescription& object, const Model& mo
       continue;
     }
     used = true;
+    if (material.isBare && change.emissionMap)
+    {
+      material.isDark = true;
+      material.emission.setZero();
+    }
     overrideNumbers(change, 0, material); // of those that move, MaterialNumbers has the frame's
+    if (material.isBare)
+    {
+      continue;
+    }
     if (change.texture)
     {
       setTexture(material, model, this->textureOf(model, *change.texture));

@@ -192,6 +192,30 @@ class Metadata(Case):
         self.assertNotIn("geometry_file", self.documents(elsewhere)[1]["objects"][0])
         self.assertFalse(os.path.exists(os.path.join(elsewhere, "models")))
 
+    def test_models_whose_faces_have_no_picture(self):
+        """Some of them: those without texture coordinates, whatever a scene says."""
+        for name in ("wood.png", "planks.png"):
+            shutil.copy(os.path.join(SOURCE, "Data", "Textures", name), self.path(name))
+        self.write("half.mtl", "newmtl m\nmap_Kd wood.png\n")
+        self.write("half.obj", "mtllib half.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3\nf 1 3 4\n")
+        scene = {"cameras": [{"name": "eye", "eye": [0, 0, 3], "lookAt": [0, 0, 0], "near": 1, "far": 9, "width": 64, "height": 48}], "objects": [
+            {"name": "half", "model": "half.obj"},
+            {"name": "other", "model": "half.obj", "position": [0, 0, -1], "materials": {"m": {"texture": "planks.png"}}}]}
+        layers = ("--layers", "color,depth,parts,uv", "--models", "--visibility", "ray")
+        folder = self.render(scene, *layers)
+        for one in self.documents(folder)[1]["objects"]:
+            comments, _, faces = read_ply(os.path.join(folder, one["geometry_file"]))
+            self.assertEqual((len(comments), faces["texnumber"].tolist()), (1, [0, -1]), one["name"])
+        uv, parts = (np.load(os.path.join(folder, "eye", layer, "000000.npy")) for layer in ("uv", "parts"))
+        self.assertEqual({0, 1} - set(parts.ravel().tolist()), set())
+        np.testing.assert_array_equal(np.isfinite(uv[..., 0]), parts == 0)
+        self.dgtk("verify", folder)
+        file = os.path.join(folder, self.documents(folder)[1]["objects"][0]["geometry_file"])
+        with open(file, "r+b") as ply:
+            ply.seek(-4, os.SEEK_END)
+            ply.write(bytes(4))  # the last face has the picture
+        self.refused("verify", folder, "--check", "models", status=1, says="looks")
+
     def test_keypoints(self):
         crate = {"inside": [0, 0.5, 0], "front": [0, 0.5, 0.495], "back": [0, 0.5, -0.5], "beside": [50, 0, 0], "behind": [0, 0, 90]}
         scene = {"keyFrames": [0, 2], "objects": [

@@ -168,6 +168,20 @@ class Bop(datasets.ExportCase):
         empty = load_json(os.path.join(folder, "test", "000001", "scene_gt_info.json"))["1"]
         self.assertEqual([row["px_count_visib"] for row in empty], [0] * len(empty))
 
+    def test_a_picture_of_some_faces_is_none_of_all(self):
+        """The format has one picture for all faces of a model."""
+        scene = load_json(datasets.stereo(self.path("scene")))
+        self.write("scene/p.ppm", "P3 1 1 255 9 200 9\n")
+        self.write("scene/half.mtl", "newmtl m\nmap_Kd p.ppm\n")
+        for bare, there in (("f 1 3 4\n", False), ("f 1/1 3/2 4/3\n", True)):
+            self.write("scene/half.obj", "mtllib half.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3\n" + bare)
+            scene["objects"] = [{"name": "half", "model": "half.obj", "class": "half"}]
+            scene.pop("classes", None)
+            dataset = self.render(self.write("scene/half.json", json.dumps(scene)), LAYERS, "--models")
+            folder, _ = self.export(dataset, "bop")
+            with open(os.path.join(folder, "models", "obj_000001.ply"), encoding="ascii") as file:
+                self.assertEqual("comment TextureFile" in file.read(), there)
+
     def test_refusals(self):
         path = datasets.stereo(self.path("scene"))
         scene = load_json(path)

@@ -12,7 +12,8 @@ public:
   LayerSpec spec() const override
   {
     return { "uv", PixelType::Float64, 2, "1", "", "nan",
-      "texture coordinates at the pixel's centre, (0, 0) the lower left corner of the picture; none for surfaces without",
+      "texture coordinates at the pixel's centre, (0, 0) the lower left corner of the picture; none for surfaces "
+      "without",
       Meaning::TextureCoordinates };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }

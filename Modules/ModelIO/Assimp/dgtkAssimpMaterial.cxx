@@ -195,13 +195,11 @@ void readColladaMaps(const aiMaterial& from, Material& to)
   to.specular = has(from, aiTextureType_SPECULAR) ? std::array<double, 3>{ 0, 0, 0 } : to.specular;
   aiColor4D light;
   to.maskIsLuminance = from.Get(AI_MATKEY_COLOR_TRANSPARENT, light) == aiReturn_SUCCESS ? 1 : 0;
-  if (isInverse(from))
-  {
-    to.opacity = 1;
-    return;
-  }
+  to.maskIsInverse = isInverse(from) ? 1 : 0;
+  to.opacity = isInverse(from) ? 1 : to.opacity;
   const Map mask = mapOf(from, aiTextureType_OPACITY);
-  to.mask = mask.name == to.texture.name && to.maskIsLuminance == 0 ? to.mask : mask; // its own alpha counts
+  const bool isOwn = mask.name == to.texture.name && to.maskIsLuminance == 0 && to.maskIsInverse == 0;
+  to.mask = isOwn ? to.mask : mask; // its own alpha counts
 }
 
 /// Elements of Collada's materials whose pictures are not drawn.
@@ -210,8 +208,7 @@ std::set<std::string> unreadPictures(const aiMaterial& from)
   std::set<std::string> names;
   for (const auto& [isUnread, name] :
     { std::pair(hasOwnAmbient(from), "\"ambient\""), { has(from, aiTextureType_SPECULAR), "\"specular\"" },
-      { has(from, aiTextureType_REFLECTION), "\"reflective\"" }, { has(from, aiTextureType_NORMALS), "\"bump\"" },
-      { isInverse(from), "\"transparent\"" } })
+      { has(from, aiTextureType_REFLECTION), "\"reflective\"" }, { has(from, aiTextureType_NORMALS), "\"bump\"" } })
   {
     if (isUnread)
     {

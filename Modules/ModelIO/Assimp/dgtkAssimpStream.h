@@ -65,6 +65,7 @@ struct Material
   Map occlusionMap;
   Map mask;                         ///< how much is there: its alpha where it has one, its luminance otherwise
   std::int32_t maskIsLuminance = 0; ///< whatever its alpha
+  std::int32_t maskIsInverse = 0;   ///< how much is not there
 };
 
 constexpr std::array<Map Material::*, 6> mapsOfMaterials{ &Material::texture, &Material::normalMap,
@@ -197,7 +198,8 @@ void io(A& a, Material& m)
   a(m.name), a(m.ambient), a(m.diffuse), a(m.specular), a(m.emission), a(m.shininess), a(m.opacity), a(m.twoSided);
   a(m.alpha), a(m.alphaCutoff), a(m.texture);
   a(m.physical), a(m.metallic), a(m.roughness), a(m.normalScale), a(m.occlusionStrength);
-  a(m.normalMap), a(m.metallicRoughnessMap), a(m.emissionMap), a(m.occlusionMap), a(m.mask), a(m.maskIsLuminance);
+  a(m.normalMap), a(m.metallicRoughnessMap), a(m.emissionMap), a(m.occlusionMap), a(m.mask), a(m.maskIsLuminance),
+    a(m.maskIsInverse);
 }
 template <class A>
 void io(A& a, Texture& t)

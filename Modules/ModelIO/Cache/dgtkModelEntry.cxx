@@ -176,7 +176,7 @@ void io(A& a, ModelPicture& p)
 template <class A>
 void io(A& a, MaterialAlpha& m)
 {
-  a(m.use), a(m.cutOff), a(m.mask), a(m.value);
+  a(m.use), a(m.cutOff), a(m.mask), a(m.value), a(m.inverse);
 }
 template <class A>
 void io(A& a, ModelNote& n)
@@ -198,7 +198,7 @@ void io(A& a, Material& m)
   a(physical), a(values.metallic), a(values.roughness), a(values.wanted);
   m.physical = physical ? std::make_optional(values) : std::nullopt;
   a(m.normalMap), a(m.bumpMap), a(m.metallicRoughnessMap), a(m.emissionMap), a(m.occlusionMap);
-  a(m.normalScale), a(m.bumpScale), a(m.occlusionStrength);
+  a(m.normalScale), a(m.bumpScale), a(m.occlusionStrength), a(m.isBare), a(m.isDark);
 }
 template <class A>
 void io(A& a, Part& p)

@@ -176,7 +176,8 @@ std::vector<std::array<float, 2>> FbxGeometry::uvs(const FbxPart& part, const st
     for (std::size_t i = 0; values.isKnown() && i < part.mesh.positions.size(); ++i)
     {
       const double* uv = values.of(part, i);
-      all.push_back(uv != nullptr ? std::array<float, 2>{ float(uv[0]), float(uv[1]) } : std::array<float, 2>{ 0, 0 });
+      all.push_back(
+        uv != nullptr ? std::array<float, 2>{ float(uv[0]), float(uv[1]) } : std::array<float, 2>{ NAN, NAN });
     }
   }
   return all;

@@ -362,7 +362,9 @@ int ModelBuilder::withoutPictures(int material)
 {
   const auto index = static_cast<std::size_t>(material);
   Material bare = this->model().materials[index];
-  if (bare.emissionMap >= 0)
+  bare.isBare = true;
+  bare.isDark = bare.emissionMap >= 0;
+  if (bare.isDark)
   {
     bare.emission.setZero(); // where it glows is not known
   }
@@ -372,7 +374,9 @@ int ModelBuilder::withoutPictures(int material)
   }
   MaterialAlpha alpha = this->Contents.alpha[index];
   alpha.mask = MaterialAlpha::none;
-  return this->addMaterial(bare, alpha);
+  this->model().materials.push_back(bare); // however many there are
+  this->Contents.alpha.push_back(alpha);
+  return static_cast<int>(this->materials()) - 1;
 }
 
 void ModelBuilder::settleUnplaced()

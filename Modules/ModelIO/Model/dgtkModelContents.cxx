@@ -43,9 +43,11 @@ double sampled(const Image& image, int channel, int x, int y, int width, int hei
 }
 
 /// `own`, or white, with the alpha that a mask has.
-std::shared_ptr<Image> maskedImage(const Image* own, const Image& mask, MaskValue value, int width, int height)
+std::shared_ptr<Image> maskedImage(
+  const Image* own, const Image& mask, const MaterialAlpha& alpha, int width, int height)
 {
-  value = value != MaskValue::Usual ? value : mask.hasAlpha ? MaskValue::Alpha : MaskValue::Luminance;
+  const MaskValue usual = mask.hasAlpha ? MaskValue::Alpha : MaskValue::Luminance;
+  const MaskValue value = alpha.value == MaskValue::Usual ? usual : alpha.value;
   auto made = std::make_shared<Image>();
   made->width = width;
   made->height = height;
@@ -60,8 +62,9 @@ std::shared_ptr<Image> maskedImage(const Image* own, const Image& mask, MaskValu
         add(own == nullptr ? 255 : sampled(*own, c, x, y, width, height));
       }
       const auto of = [&](int c) { return sampled(mask, c, x, y, width, height); };
-      add(value == MaskValue::Luminance ? 0.2126 * of(0) + 0.7152 * of(1) + 0.0722 * of(2)
-                                        : of(static_cast<int>(value))); // Rec. ITU-R BT.709
+      const double level = value == MaskValue::Luminance ? 0.2126 * of(0) + 0.7152 * of(1) + 0.0722 * of(2)
+                                                         : of(static_cast<int>(value)); // Rec. ITU-R BT.709
+      add(alpha.inverse ? 255 - level : level);
     }
   }
   settleAlpha(*made, AlphaRule::Meant);
@@ -250,7 +253,8 @@ private:
     {
       return;
     }
-    const auto [known, isNew] = this->Masked.try_emplace({ material.texture, alpha.mask, alpha.value }, 0);
+    const auto [known, isNew] =
+      this->Masked.try_emplace({ material.texture, alpha.mask, alpha.value, alpha.inverse }, 0);
     if (isNew)
     {
       const std::shared_ptr<const Image> own = this->imageOf(material);
@@ -260,7 +264,7 @@ private:
       this->Store->take(name, width, height, std::uint64_t(4) * std::uint64_t(width) * std::uint64_t(height));
       Texture texture = this->Made.textures[own ? static_cast<std::size_t>(material.texture) : named];
       texture.path.clear(); // it is in no file
-      texture.image = maskedImage(own.get(), *mask, alpha.value, width, height);
+      texture.image = maskedImage(own.get(), *mask, alpha, width, height);
       known->second = static_cast<int>(this->Made.textures.size());
       this->Made.textures.push_back(texture);
     }
@@ -369,8 +373,8 @@ private:
   std::vector<std::string> NotFound; ///< a line a picture, "" for those that were found
   std::vector<std::string> NotDecoded;
   std::map<std::string, std::shared_ptr<const Image>> ByPath;
-  std::map<std::tuple<int, std::int32_t, MaskValue>, int> Masked; ///< (texture, mask, what of it)
-  std::map<std::tuple<int, double, double>, int> Remade;          ///< (texture, cut-off, opacity)
+  std::map<std::tuple<int, std::int32_t, MaskValue, bool>, int> Masked; ///< (texture, mask, what of it, inverse)
+  std::map<std::tuple<int, double, double>, int> Remade;                ///< (texture, cut-off, opacity)
 };
 } // namespace
 

@@ -160,21 +160,19 @@ TEST(ColladaPictures, Masks)
     << "its own alpha counts";
 }
 
-/// Those that say how much is not there.
-TEST(ColladaPictures, InverseMasksAreNotDrawn)
+TEST(ColladaPictures, MasksOfWhatIsNotThere)
 {
-  const std::string weighted = mayasWords("<weighting>1</weighting>");
-  for (const std::string opaque : { "A_ZERO", "RGB_ZERO" })
+  const std::string color = "<diffuse>" + pictureOf("a") + "</diffuse>";
+  for (const std::string& extra : { std::string(), mayasWords("<weighting>1</weighting>") })
   {
-    for (const std::string& extra : { std::string(), weighted })
+    const auto alphaOf = [&](const std::string& opaque, const std::string& picture)
     {
-      const auto model = readPainted(paintedDae("<diffuse>" + pictureOf("a") + "</diffuse><transparent opaque='" +
-                                                opaque + "'>" + pictureOf("b", "UV", extra) + "</transparent>"));
-      EXPECT_THAT(model->warnings, ElementsAre("pictures of \"transparent\" are not drawn")) << opaque;
-      EXPECT_EQ(model->materials.at(0).opacity, 1);
-      EXPECT_FALSE(model->materials.at(0).cutOut);
-      EXPECT_EQ(nameOf(*model, model->materials.at(0).texture), "own.ppm");
-    }
+      return alphaOfPainted(
+        color + "<transparent opaque='" + opaque + "'>" + pictureOf(picture, "UV", extra) + "</transparent>");
+    };
+    EXPECT_THAT(alphaOf("A_ZERO", "b"), ElementsAre(0, 0, 255));
+    EXPECT_THAT(alphaOf("RGB_ZERO", "b"), ElementsAre(0, 255, 0));
+    EXPECT_THAT(alphaOf("RGB_ZERO", "a"), ElementsAre(0, 255)) << "that of its colour, too";
   }
 }
 

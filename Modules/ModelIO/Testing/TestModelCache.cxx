@@ -154,6 +154,7 @@ void expectEqual(const Model& a, const Model& b)
   EXPECT_EQ(a.rest->positions, b.rest->positions);
   EXPECT_EQ(a.rest->normals, b.rest->normals);
   EXPECT_EQ(a.uvs, b.uvs);
+  EXPECT_EQ(a.unplaced, b.unplaced);
   EXPECT_EQ(a.sourceVertex, b.sourceVertex);
   EXPECT_EQ(a.normalGroup, b.normalGroup);
   const auto counts = [](const Model& m)
@@ -208,7 +209,7 @@ void expectEqualMaterials(const Model& a, const Model& b)
       return std::vector<double>{ x.shininess, x.opacity, double(x.twoSided), double(x.texture), double(x.cutOut),
         double(x.physical.has_value()), x.physical ? x.physical->metallic : 0, x.physical ? x.physical->roughness : 0,
         double(x.normalMap), double(x.bumpMap), double(x.metallicRoughnessMap), double(x.emissionMap),
-        double(x.occlusionMap), x.normalScale, x.bumpScale, x.occlusionStrength };
+        double(x.occlusionMap), x.normalScale, x.bumpScale, x.occlusionStrength, double(x.isBare), double(x.isDark) };
     };
     EXPECT_EQ(numbers(m), numbers(n));
   }
@@ -245,6 +246,7 @@ TEST(ModelCache, AKeptModelIsTheModel)
   EXPECT_TRUE(leaf->materials[0].cutOut);
   EXPECT_EQ(leaf->textures.size(), 3u); // one more with the file's own cut-off
   EXPECT_THAT(kept.read(kept.path("a.obj"))->warnings, testing::SizeIs(4));
+  EXPECT_THAT(kept.read(kept.path("a.obj"))->unplaced, testing::Contains(1)); // compared above
 }
 
 TEST(ModelCache, IsFoundByContentsAndName)

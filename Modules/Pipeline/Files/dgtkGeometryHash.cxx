@@ -86,6 +86,10 @@ private:
     bytes.list(instance.geometry->normals);
     bytes.list(model.triangles);
     bytes.list(model.uvs);
+    if (!model.unplaced.empty())
+    {
+      bytes.list(model.unplaced);
+    }
     bytes.list(model.colors);
     bytes.list(model.colorMapAt);
     if (model.colorMap)

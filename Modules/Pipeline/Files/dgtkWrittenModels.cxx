@@ -65,7 +65,11 @@ public:
     : TheInstance(instance)
     , Textures(textures)
   {
-    for (const Part& part : instance.model->parts)
+    const std::vector<Part>& parts = instance.model->parts;
+    this->HasNumbers =
+      textures.size() > 1 || (!textures.empty() && std::any_of(parts.begin(), parts.end(),
+                                                     [this](const Part& part) { return this->numberOf(part) < 0; }));
+    for (const Part& part : parts)
     {
       this->part(part);
     }
@@ -85,20 +89,29 @@ public:
     text += this->hasUvs() ? "\nproperty double s\nproperty double t" : "";
     text += "\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face " +
             std::to_string(this->TheInstance.model->triangles.size()) + "\nproperty list uchar int vertex_indices";
-    text += this->hasNumbers() ? "\nproperty int texnumber" : "";
+    text += this->HasNumbers ? "\nproperty int texnumber" : "";
     return text + "\nend_header\n" + this->Vertices + this->Triangles;
   }
 
 private:
   bool hasUvs() const { return !this->TheInstance.model->uvs.empty(); }
-  bool hasNumbers() const { return this->Textures.size() > 1; }
+  const Material& materialOf(const Part& part) const
+  {
+    return (*this->TheInstance.materials)[std::size_t(part.material)];
+  }
+  /// Of a part's picture; -1 for none.
+  std::int32_t numberOf(const Part& part) const
+  {
+    const Texture* const texture = textureOf(*this->TheInstance.model, this->materialOf(part));
+    const auto found = std::find(this->Textures.begin(), this->Textures.end(), texture);
+    return found == this->Textures.end() ? -1 : int(found - this->Textures.begin());
+  }
 
   void part(const Part& part)
   {
     const Model& model = *this->TheInstance.model;
-    const Material& material = (*this->TheInstance.materials)[std::size_t(part.material)];
-    const auto found = std::find(this->Textures.begin(), this->Textures.end(), textureOf(model, material));
-    const std::int32_t texture = found == this->Textures.end() ? -1 : int(found - this->Textures.begin());
+    const Material& material = this->materialOf(part);
+    const std::int32_t texture = this->numberOf(part);
     for (std::uint32_t i = 0; i < part.triangles; ++i)
     {
       this->Triangles += '\3';
@@ -107,7 +120,7 @@ private:
         const std::int32_t number = this->vertex(vertex, colorOf(model, material, vertex));
         append(this->Triangles, &number, 1);
       }
-      if (this->hasNumbers())
+      if (this->HasNumbers)
       {
         append(this->Triangles, &texture, 1);
       }
@@ -133,6 +146,7 @@ private:
 
   const Instance& TheInstance;
   const std::vector<const Texture*>& Textures;
+  bool HasNumbers = false; ///< faces say which picture they have
   std::map<std::pair<std::uint32_t, Color>, std::int32_t> Numbers;
   std::string Vertices;
   std::string Triangles;

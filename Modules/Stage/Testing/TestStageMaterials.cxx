@@ -161,6 +161,41 @@ TEST(StageMaterials, ATextureWithoutCoordinatesIsAWarning)
   folder.load(R"({"objects": [{"model": "models/bare.ac", "materials": {"*": {"texture": "models/one.ppm"}}}]})",
     [&](const std::string& line) { warnings.push_back(line); });
   EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("bare.ac has no texture coordinates")));
+  warnings.clear();
+  writeFile(folder.path("models/half.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 0\nf 1/1 2/1 3/1\nf 1 2 3\n");
+  folder.load(R"({"objects": [{"model": "models/half.obj", "materials": {"*": {"texture": "models/one.ppm"}}}]})",
+    [&](const std::string& line) { warnings.push_back(line); });
+  EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("half.obj has surfaces without texture coordinates")));
+}
+
+TEST(StageMaterials, SurfacesWithoutCoordinatesHaveNoPicturesOfTheScene)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("models/half.mtl"), "newmtl m\nKd 0 0 0\nKe 1 0 0\nmap_Ke one.ppm\nnewmtl n\nmap_Kd one.ppm\n");
+  writeFile(folder.path("models/half.obj"),
+    "mtllib half.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 0\nusemtl m\nf 1/1 2/1 3/1\nf 1 2 3\n"
+    "usemtl n\nf 1/1 2/1 3/1\nf 1 2 3\n");
+  const auto stage = folder.load(R"({"objects": [{"model": "models/half.obj", "materials": {"*": {
+    "texture": "models/two.ppm", "normalMap": "models/one.ppm", "emission": [0, 1, 0]}}}, {"model": "models/half.obj",
+    "materials": {"n": {"emissionMap": "models/two.ppm", "emission": [0, 1, 0]}}}]})");
+  const auto state = stage->at(0);
+  const auto look = [&](std::size_t object, std::size_t part) -> const Material&
+  {
+    const Instance& instance = state->instances[object];
+    return (*instance.materials)[std::size_t(instance.model->parts.at(part).material)];
+  };
+  for (const std::size_t part : { 1u, 3u })
+  {
+    EXPECT_EQ(look(0, part).texture, -1);
+    EXPECT_EQ(look(0, part).normalMap, -1);
+    EXPECT_GE(look(0, part - 1).texture, 0);
+    EXPECT_GE(look(0, part - 1).normalMap, 0);
+    EXPECT_EQ(look(0, part - 1).emission, Vector(0, 1, 0));
+  }
+  EXPECT_EQ(look(0, 1).emission, Vector(0, 0, 0)) << "a picture says where the other glows";
+  EXPECT_EQ(look(0, 3).emission, Vector(0, 1, 0));
+  EXPECT_EQ(look(1, 3).emission, Vector(0, 0, 0));
+  EXPECT_EQ(look(1, 2).emission, Vector(0, 1, 0));
 }
 
 TEST(StageMaterials, MapsAreThoseThatTheSceneNames)

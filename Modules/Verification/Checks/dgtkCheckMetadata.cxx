@@ -243,7 +243,8 @@ void checkFlags(const Changes& changes, const std::vector<ObjectRecord>& objects
 bool looksEqual(const Instance& a, const Instance& b)
 {
   if (a.geometry->positions != b.geometry->positions || a.model->triangles != b.model->triangles ||
-      a.model->uvs != b.model->uvs || a.model->parts.size() != b.model->parts.size())
+      a.model->uvs != b.model->uvs || a.model->unplaced != b.model->unplaced ||
+      a.model->parts.size() != b.model->parts.size())
   {
     return false;
   }

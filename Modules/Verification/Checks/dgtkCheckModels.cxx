@@ -124,7 +124,12 @@ private:
     const int index = this->materialOf(triangle).texture;
     const Texture* const texture = index < 0 ? nullptr : &this->TheInstance.model->textures[std::size_t(index)];
     const std::string name = this->Ply.picture(triangle);
-    if (texture == nullptr || !texture->image || !this->Seen.insert({ name, texture }).second)
+    if (texture == nullptr || !texture->image)
+    {
+      looks.equal(name.empty(), [&] { return this->offender("picture '" + name + '\'', "none"); });
+      return;
+    }
+    if (!this->Seen.insert({ name, texture }).second)
     {
       return;
     }

@@ -120,10 +120,12 @@ double bound(const Node& a, const Node& b)
 
 std::string modelName(const Model& model) { return "obj_" + padded(model.id, 6); }
 
-/// The picture of a model that has one alone.
+/// The picture of a model that has one alone, on all of its faces.
 std::string pictureOf(const ModelPly& model)
 {
-  return model.pictures.size() == 1 && !model.uvs.empty() ? model.pictures.front() : "";
+  const bool isEverywhere =
+    std::all_of(model.textures.begin(), model.textures.end(), [](std::int32_t number) { return number == 0; });
+  return model.pictures.size() == 1 && !model.uvs.empty() && isEverywhere ? model.pictures.front() : "";
 }
 
 std::string plyText(const ModelPly& ply, const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& scale,

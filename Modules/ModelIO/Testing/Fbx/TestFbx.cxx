@@ -279,6 +279,7 @@ TEST(Fbx, NormalsAndTextureCoordinatesByCornerPointAndPolygon)
     uvsBy("ByPolygonVertex", { 0, 1, 7, -1 }));
   EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, 1)) << "the triangle's own";
   EXPECT_EQ(model->uvs[cornerOf(*model, 0, 2)], Eigen::Vector2d(0, 0)) << "an index that is none";
+  EXPECT_THAT(model->unplaced, ElementsAre(0, 1)) << "no corner of the second has one";
 }
 
 TEST(Fbx, SurfacesThatNameMissingPointsAreLeftOut)
