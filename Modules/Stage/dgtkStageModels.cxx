@@ -43,6 +43,20 @@ std::string namesOf(const std::vector<Texture>& textures)
   }
   return text.empty() ? "none" : text;
 }
+
+/// Whether surfaces that may get a picture have no texture coordinates beside others that have.
+bool hasUnplaced(const Model& model)
+{
+  const auto& unplaced = model.unplaced;
+  return !unplaced.empty() && std::any_of(model.parts.begin(), model.parts.end(),
+                                [&](const Part& part)
+                                {
+                                  const auto first = unplaced.begin() + std::ptrdiff_t(part.firstTriangle);
+                                  return !model.materials[std::size_t(part.material)].isBare &&
+                                         std::find(first, first + std::ptrdiff_t(part.triangles), 1) !=
+                                           first + std::ptrdiff_t(part.triangles);
+                                });
+}
 } // namespace
 
 void failObject(const SceneDescription& scene, const ObjectDescription& object, const std::string& what,
@@ -279,7 +293,7 @@ void StageModels::addTextures()
     {
       this->Textures[{ file.model.get(), file.pictures[k] }] = static_cast<int>(file.ownTextures + k);
       const bool none = file.model->uvs.empty();
-      if ((none || !file.model->unplaced.empty()) && file.model->textures[file.ownTextures + k].image)
+      if ((none || hasUnplaced(*file.model)) && file.model->textures[file.ownTextures + k].image)
       {
         this->warn(this->Scene.title() + ": texture " + quoted(file.pictures[k]) + ": " + file.model->path +
                    (none ? " has no texture coordinates" : " has surfaces without texture coordinates"));
@@ -399,8 +413,8 @@ void StageModels::applyOverride(const ObjectDescription& object, const Model& mo
     used = true;
     if (material.isBare && change.emissionMap)
     {
-      material.isDark = true;
-      material.emission.setZero();
+      material.isDark = !change.emissionMap->empty();
+      material.emission = material.isDark ? Eigen::Vector3d(0, 0, 0) : material.emission;
     }
     overrideNumbers(change, 0, material); // of those that move, MaterialNumbers has the frame's
     if (material.isBare)

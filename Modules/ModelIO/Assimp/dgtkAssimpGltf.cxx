@@ -238,19 +238,6 @@ Matrix placeOf(const Json& node)
   return to;
 }
 
-void repairPlaces(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
-{
-  const Json all = file.root().value("nodes", Json::array());
-  for (std::size_t n = 0; n < all.size(); ++n)
-  {
-    const std::int32_t index = nodes.of(n);
-    if (index != noIndex)
-    {
-      scene.nodes[static_cast<std::size_t>(index)].parent_from_node = placeOf(all[n]);
-    }
-  }
-}
-
 /// A list of names at the top of the file.
 std::set<std::string> extensionsOf(const GltfFile& file, const char* list)
 {
@@ -322,6 +309,20 @@ std::string problemOf(const Step& step)
   catch (const std::exception& error)
   {
     return error.what();
+  }
+}
+
+/// A node that says nonsense stays as the importer has it.
+void repairPlaces(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
+{
+  const Json all = file.root().value("nodes", Json::array());
+  for (std::size_t n = 0; n < all.size(); ++n)
+  {
+    const std::int32_t index = nodes.of(n);
+    if (index != noIndex)
+    {
+      problemOf([&] { scene.nodes[static_cast<std::size_t>(index)].parent_from_node = placeOf(all[n]); });
+    }
   }
 }
 } // namespace

@@ -195,11 +195,15 @@ void readColladaMaps(const aiMaterial& from, Material& to)
   to.specular = has(from, aiTextureType_SPECULAR) ? std::array<double, 3>{ 0, 0, 0 } : to.specular;
   aiColor4D light;
   to.maskIsLuminance = from.Get(AI_MATKEY_COLOR_TRANSPARENT, light) == aiReturn_SUCCESS ? 1 : 0;
-  to.maskIsInverse = isInverse(from) ? 1 : 0;
-  to.opacity = isInverse(from) ? 1 : to.opacity;
   const Map mask = mapOf(from, aiTextureType_OPACITY);
-  const bool isOwn = mask.name == to.texture.name && to.maskIsLuminance == 0 && to.maskIsInverse == 0;
-  to.mask = isOwn ? to.mask : mask; // its own alpha counts
+  if (isInverse(from))
+  {
+    to.maskInverse = std::clamp(1 - to.opacity, 0.0, 1.0); // Assimp's opacity is what <transparency> leaves
+    to.opacity = 1;
+    to.mask = to.maskInverse > 0 ? mask : to.mask;
+    return;
+  }
+  to.mask = mask.name == to.texture.name && to.maskIsLuminance == 0 ? to.mask : mask; // its own alpha counts
 }
 
 /// Elements of Collada's materials whose pictures are not drawn.

@@ -65,7 +65,7 @@ struct Material
   Map occlusionMap;
   Map mask;                         ///< how much is there: its alpha where it has one, its luminance otherwise
   std::int32_t maskIsLuminance = 0; ///< whatever its alpha
-  std::int32_t maskIsInverse = 0;   ///< how much is not there
+  double maskInverse = 0;           ///< above 0: how much is not there, times this
 };
 
 constexpr std::array<Map Material::*, 6> mapsOfMaterials{ &Material::texture, &Material::normalMap,
@@ -199,7 +199,7 @@ void io(A& a, Material& m)
   a(m.alpha), a(m.alphaCutoff), a(m.texture);
   a(m.physical), a(m.metallic), a(m.roughness), a(m.normalScale), a(m.occlusionStrength);
   a(m.normalMap), a(m.metallicRoughnessMap), a(m.emissionMap), a(m.occlusionMap), a(m.mask), a(m.maskIsLuminance),
-    a(m.maskIsInverse);
+    a(m.maskInverse);
 }
 template <class A>
 void io(A& a, Texture& t)

@@ -159,7 +159,7 @@ int AssimpMaterials::add(std::int32_t index)
   MaterialAlpha alpha = alphaOf(from);
   alpha.mask = this->textureOf(from.mask);
   alpha.value = from.maskIsLuminance != 0 ? MaskValue::Luminance : MaskValue::Usual;
-  alpha.inverse = from.maskIsInverse != 0;
+  alpha.inverse = from.maskInverse;
   const int made = this->Builder.addMaterial(to, alpha);
   this->Known[index] = made;
   return made;

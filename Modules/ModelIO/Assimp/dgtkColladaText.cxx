@@ -253,11 +253,12 @@ public:
   }
 
 private:
+  static constexpr std::size_t longestName = 1000; ///< of what is written for each picture
   struct Parameter
   {
     std::string image; ///< its id, or:
     std::string surface;
-    std::string wraps;
+    std::string wraps[2]; ///< along u and v
   };
 
   static std::string extra(const std::string& said)
@@ -284,7 +285,7 @@ private:
     {
       const bool isMirror = text == "MIRROR";
       const std::string element = std::string(isMirror ? "mirror" : "wrap") + (markup.isOf("wrap_s") ? 'U' : 'V');
-      parameter.wraps += '<' + element + (isMirror ? ">1</" : ">0</") + element + '>';
+      parameter.wraps[markup.isOf("wrap_s") ? 0 : 1] = '<' + element + (isMirror ? ">1</" : ">0</") + element + '>';
     }
   }
 
@@ -297,8 +298,9 @@ private:
       const auto surface = this->Parameters.find(sampler->second.surface);
       const bool hasSurface = sampler->second.image.empty() && surface != this->Parameters.end();
       const Parameter& named = hasSurface ? surface->second : sampler->second;
-      name = named.image.empty() ? sampler->second.surface : named.image;
-      wraps = extra(sampler->second.wraps);
+      const std::string& image = named.image.empty() ? sampler->second.surface : named.image;
+      name = image.empty() || image.size() > longestName ? name : image;
+      wraps = extra(sampler->second.wraps[0] + sampler->second.wraps[1]);
     }
     std::string to = Markup(tag, 0).with("texture", "texture", name);
     if (!markup.isEmpty())

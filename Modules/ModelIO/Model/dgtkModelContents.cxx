@@ -64,7 +64,7 @@ std::shared_ptr<Image> maskedImage(
       const auto of = [&](int c) { return sampled(mask, c, x, y, width, height); };
       const double level = value == MaskValue::Luminance ? 0.2126 * of(0) + 0.7152 * of(1) + 0.0722 * of(2)
                                                          : of(static_cast<int>(value)); // Rec. ITU-R BT.709
-      add(alpha.inverse ? 255 - level : level);
+      add(alpha.inverse > 0 ? 255 - alpha.inverse * level : level);
     }
   }
   settleAlpha(*made, AlphaRule::Meant);
@@ -373,8 +373,8 @@ private:
   std::vector<std::string> NotFound; ///< a line a picture, "" for those that were found
   std::vector<std::string> NotDecoded;
   std::map<std::string, std::shared_ptr<const Image>> ByPath;
-  std::map<std::tuple<int, std::int32_t, MaskValue, bool>, int> Masked; ///< (texture, mask, what of it, inverse)
-  std::map<std::tuple<int, double, double>, int> Remade;                ///< (texture, cut-off, opacity)
+  std::map<std::tuple<int, std::int32_t, MaskValue, double>, int> Masked; ///< (texture, mask, what of it, inverse)
+  std::map<std::tuple<int, double, double>, int> Remade;                  ///< (texture, cut-off, opacity)
 };
 } // namespace
 

@@ -59,7 +59,7 @@ struct MaterialAlpha
   static constexpr std::int32_t none = -1;
   std::int32_t mask = none; ///< the picture that holds the alpha, which its own does not count beside then
   MaskValue value = MaskValue::Usual;
-  bool inverse = false; ///< it says how much is not there
+  double inverse = 0; ///< above 0: times this it says how much is not there
 };
 
 /// A line about a model, or the place among the lines where one about its pictures stands.

@@ -174,6 +174,35 @@ TEST(ColladaPictures, MasksOfWhatIsNotThere)
     EXPECT_THAT(alphaOf("RGB_ZERO", "b"), ElementsAre(0, 255, 0));
     EXPECT_THAT(alphaOf("RGB_ZERO", "a"), ElementsAre(0, 255)) << "that of its colour, too";
   }
+  const auto alphaBeside = [&](const std::string& transparency)
+  {
+    return alphaOfPainted(color + "<transparent opaque='RGB_ZERO'>" + pictureOf("b") +
+                          "</transparent><transparency><float>" + transparency + "</float></transparency>");
+  };
+  EXPECT_THAT(alphaBeside("1"), ElementsAre(0, 255, 0));
+  EXPECT_THAT(alphaBeside("0.25"), ElementsAre(191, 255, 191)) << "times the mask";
+  EXPECT_THAT(alphaBeside("0"), ElementsAre(255, 255)) << "its own alpha counts";
+}
+
+TEST(ColladaPictures, LongNamesAndManyWordsDoNotGrow)
+{
+  const std::string color = "<diffuse>" + pictureOf("a") + "</diffuse>";
+  std::string words;
+  for (int i = 0; i < 20000; ++i)
+  {
+    words += "<wrap_s>CLAMP</wrap_s><wrap_s>MIRROR</wrap_s>";
+  }
+  std::string many;
+  for (int i = 0; i < 2000; ++i)
+  {
+    many += "<texture texture='a' texcoord='UV'/>";
+  }
+  const auto model = readBytes("dae", paintedDae(color, parametersOf("own", "a", words),
+                                        "<extra><technique profile='X'>" + many + "</technique></extra>"));
+  EXPECT_EQ(model->textures.at(0).wrap, (dgtk::TextureWraps{ dgtk::TextureWrap::Mirror, dgtk::TextureWrap::Repeat }));
+  const std::string longName(100000, 'x');
+  readBytes("dae", paintedDae(color, parametersOf(longName, "a", ""),
+                     "<extra><technique profile='X'>" + many + "</technique></extra>"));
 }
 
 TEST(ColladaPictures, SamplersSayHowTheyGoOn)

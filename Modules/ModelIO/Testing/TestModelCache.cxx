@@ -221,8 +221,8 @@ TEST(ModelCache, AKeptModelIsTheModel)
   const Kept kept;
   const std::string leaves = dgtk::readFile(sourceFile("Data/Textures/leaves.png"));
   kept.write("leaves.png", leaves);
-  kept.write("a.mtl",
-    "newmtl m\nKd 0.1 0.2 0.3\nKs 1 0 0\nNs 20\nmap_Kd leaves.png\nnewmtl n\nd 0.5\nmap_Kd none.png\nnewmtl o\nd 0\n");
+  kept.write("a.mtl", "newmtl m\nKd 0.1 0.2 0.3\nKs 1 0 0\nNs 20\nmap_Kd leaves.png\nnewmtl n\nd 0.5\nmap_Kd "
+                      "none.png\nKe 1 1 1\nmap_Ke none.png\nnewmtl o\nd 0\n");
   const std::string head = "mtllib a.mtl\nmtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl o\nf 1 2 3\nusemtl n\n"
                            "f 3 2 1\nf 1 9999999 2\nl 1 2\nusemtl m\n";
   for (const std::string& path :

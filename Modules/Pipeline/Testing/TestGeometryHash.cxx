@@ -112,6 +112,12 @@ TEST(GeometryHash, IsOfWhatCanBeSeen)
                                [](Model& m) {
                                  m.uvs = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
                                }) },
+    { "triangles without them", model(
+                                  [](Model& m)
+                                  {
+                                    m.uvs = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
+                                    m.unplaced = { 0, 1 };
+                                  }) },
     { "colours", model([](Model& m) { m.colors.resize(4); }) },
     { "as many bytes of places of colours", model(
                                               [](Model& m) {

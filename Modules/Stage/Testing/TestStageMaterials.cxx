@@ -166,6 +166,13 @@ TEST(StageMaterials, ATextureWithoutCoordinatesIsAWarning)
   folder.load(R"({"objects": [{"model": "models/half.obj", "materials": {"*": {"texture": "models/one.ppm"}}}]})",
     [&](const std::string& line) { warnings.push_back(line); });
   EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("half.obj has surfaces without texture coordinates")));
+  warnings.clear();
+  writeFile(folder.path("models/half.mtl"), "newmtl n\nmap_Kd one.ppm\n");
+  writeFile(folder.path("models/half.obj"),
+    "mtllib half.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 0\nusemtl n\nf 1/1 2/1 3/1\nf 1 2 3\n");
+  folder.load(R"({"objects": [{"model": "models/half.obj", "materials": {"*": {"texture": "models/two.ppm"}}}]})",
+    [&](const std::string& line) { warnings.push_back(line); });
+  EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("1 triangle has pictures but no texture coordinates")));
 }
 
 TEST(StageMaterials, SurfacesWithoutCoordinatesHaveNoPicturesOfTheScene)
@@ -196,6 +203,12 @@ TEST(StageMaterials, SurfacesWithoutCoordinatesHaveNoPicturesOfTheScene)
   EXPECT_EQ(look(0, 3).emission, Vector(0, 1, 0));
   EXPECT_EQ(look(1, 3).emission, Vector(0, 0, 0));
   EXPECT_EQ(look(1, 2).emission, Vector(0, 1, 0));
+  const auto plain = folder.load(R"({"objects": [{"model": "models/half.obj", "materials": {"*": {
+    "texture": "", "emissionMap": "", "emission": [0, 1, 0]}}}]})");
+  for (const Material& material : *plain->at(0)->instances[0].materials)
+  {
+    EXPECT_EQ(material.emission, Vector(0, 1, 0)) << "no picture says where";
+  }
 }
 
 TEST(StageMaterials, MapsAreThoseThatTheSceneNames)
