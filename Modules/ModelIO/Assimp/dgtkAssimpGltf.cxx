@@ -6,6 +6,8 @@
 #include "dgtkGltfPlacement.h"
 #include "dgtkGltfUses.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -223,15 +225,13 @@ Matrix placeOf(const Json& node)
   const auto [x, y, z, w] = node.value("rotation", std::array<double, 4>{ 0, 0, 0, 1 });
   const auto translation = node.value("translation", Vector{ 0, 0, 0 });
   const auto scale = node.value("scale", Vector{ 1, 1, 1 });
-  const std::array<Vector, 3> rows{ Vector{ 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w) },
-    Vector{ 2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w) },
-    Vector{ 2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y) } };
+  const Eigen::Matrix3d turn = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
   for (std::size_t i = 0; i < 3; ++i)
   {
     to[4 * i + 3] = translation[i];
     for (std::size_t j = 0; j < 3; ++j)
     {
-      to[4 * i + j] = rows[i][j] * scale[j];
+      to[4 * i + j] = turn(Eigen::Index(i), Eigen::Index(j)) * scale[j];
     }
   }
   to[15] = 1;
