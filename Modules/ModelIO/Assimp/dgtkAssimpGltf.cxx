@@ -22,6 +22,7 @@ namespace
 using Json = GltfFile::Json;
 
 constexpr std::string_view skinKey = "\"skin\"";
+constexpr std::string_view sparseKey = "\"sparse\"";
 
 /// Times and rows of one sampler; a spline's rows come three a key.
 struct Sampler
@@ -312,6 +313,20 @@ std::string problemOf(const Step& step)
   }
 }
 
+std::string withoutSkins(std::string bytes)
+{
+  for (std::size_t at = 0; (at = bytes.find(skinKey, at)) != std::string::npos;)
+  {
+    at += skinKey.size();
+    const std::size_t next = bytes.find_first_not_of(" \t\r\n", at);
+    if (next != std::string::npos && bytes[next] == ':')
+    {
+      bytes[at - 2] = 'N';
+    }
+  }
+  return bytes;
+}
+
 /// A node that says nonsense stays as the importer has it.
 void repairPlaces(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
 {
@@ -327,37 +342,27 @@ void repairPlaces(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
 }
 } // namespace
 
-bool hasSkins(const std::string& path, const ReadContents& contentsOf)
+std::string withoutHarm(const std::string& path, const ReadContents& contentsOf)
 {
-  bool has = false;
+  std::string written;
   problemOf(
     [&]
     {
       const std::string bytes = contentsOf(path);
-      has = bytes.find(skinKey) != std::string::npos && // most files have none, and are not parsed for it
-            nodesSay(GltfFile(path, [&bytes](const std::string&) { return bytes; }), "skin");
+      if (bytes.find(skinKey) == std::string::npos && bytes.find(sparseKey) == std::string::npos)
+      {
+        return; // as most files, which are not parsed for it
+      }
+      const GltfFile file(path, [&bytes](const std::string&) { return bytes; });
+      written = file.hasSparseGaps() ? inOrder(bytes) : nodesSay(file, "skin") ? withoutSkins(bytes) : std::string();
     });
-  return has;
-}
-
-std::string withoutSkins(std::string bytes)
-{
-  for (std::size_t at = 0; (at = bytes.find(skinKey, at)) != std::string::npos;)
-  {
-    at += skinKey.size();
-    const std::size_t next = bytes.find_first_not_of(" \t\r\n", at);
-    if (next != std::string::npos && bytes[next] == ':')
-    {
-      bytes[at - 2] = 'N';
-    }
-  }
-  return bytes;
+  return written;
 }
 
 std::string inOrder(const std::string& bytes)
 {
   std::string written;
-  problemOf([&] { written = GltfFile::inOrder(bytes); });
+  problemOf([&] { written = withoutSkins(GltfFile::inOrder(bytes)); });
   return written;
 }
 

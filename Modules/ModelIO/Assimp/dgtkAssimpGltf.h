@@ -13,14 +13,12 @@ namespace dgtk::import
 /// All of a file of that name. Throws std::runtime_error.
 using ReadContents = std::function<std::string(const std::string& name)>;
 
-/// Whether nodes of a glTF file have skins that repairGltf() reads.
-bool hasSkins(const std::string& path, const ReadContents& contentsOf);
-/// The bytes of such a file, where no node has a skin: Assimp 5.2 crashes on one without matrices, mixes up joints of
-/// several types, and gives all nodes of a mesh the skin of the last one.
-std::string withoutSkins(std::string bytes);
-
-/// The bytes of a glTF file as Assimp 5.2 takes them: it wants a scene, the sets of an attribute in the order of their
-/// numbers, and extras to be objects. "" where they are none.
+/// The bytes of a glTF file without what harms Assimp 5.2 and repairGltf() reads; "" where there is nothing such. It
+/// crashes on a skin without matrices, mixes up joints of several types, gives all nodes of a mesh the skin of the last
+/// one, and reads beyond sparse accessors whose rows have gaps.
+std::string withoutHarm(const std::string& path, const ReadContents& contentsOf);
+/// As withoutHarm(), as Assimp 5.2 takes them: it wants a scene, the sets of an attribute in the order of their
+/// numbers, and extras to be objects. "" where they are no glTF.
 std::string inOrder(const std::string& bytes);
 
 /// Reads places of nodes again from a glTF file, in double precision, and animations, where Assimp 5.2 loses something:

@@ -160,11 +160,7 @@ public:
       this->Collada = dgtk::import::colladaText(bytesOf(*file));
       return this->Collada.problem.empty() ? streamOf(std::exchange(this->Collada.text, {})) : nullptr;
     }
-    if (name == this->Sorted)
-    {
-      return streamOf(this->Text);
-    }
-    return name == this->Skinned ? streamOf(dgtk::import::withoutSkins(bytesOf(*file))) : file.release();
+    return !this->Text.empty() && name == this->Replaced ? streamOf(this->Text) : file.release();
   }
 
   /// All of a file. Throws std::runtime_error.
@@ -180,9 +176,8 @@ public:
 
   std::uint64_t Bytes = 0;
   std::set<std::string> Missing;
-  std::string Skinned; ///< path of a glTF file that is handed out without the skins of its nodes, or ""
-  std::string Sorted;  ///< path of a glTF file instead of which Text is handed out, or ""
-  std::string Text;
+  std::string Replaced;              ///< path of the file instead of which Text is handed out, unless that is ""
+  std::string Text;                  ///< of Replaced
   std::string LongNumber;            ///< path of the file that has one, or ""
   std::uint64_t Line = 0;            ///< where it is
   dgtk::import::ColladaText Collada; ///< what was opened last, without the text
@@ -290,17 +285,16 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
   const auto contents = [files](const std::string& name) { return files->contentsOf(name); };
-  files->Skinned = format == "gltf" && dgtk::import::hasSkins(path, contents) ? path : std::string();
+  files->Replaced = path;
+  files->Text = format == "gltf" ? dgtk::import::withoutHarm(path, contents) : std::string();
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* found = importer.ReadFile(path, 0u);
   if (!found && format == "gltf" && files->LongNumber.empty())
   {
     files->Text = dgtk::import::inOrder(contents(path));
-    files->Sorted = files->Text.empty() ? std::string() : path;
-    found = files->Sorted.empty() ? found : importer.ReadFile(path, 0u);
-    files->Sorted.clear();
+    found = files->Text.empty() ? found : importer.ReadFile(path, 0u);
   }
-  files->Skinned.clear();
+  files->Text.clear();
   scene.bytesRead = files->Bytes;
   if (refuseLongNumber(*files, scene))
   {

@@ -90,6 +90,13 @@ std::string fromBase64(const std::string& text, std::size_t begin)
 
 std::size_t bytesOf(int type) { return type == 5126 || type == 5125 ? 4 : type == 5122 || type == 5123 ? 2 : 1; }
 
+/// Whether an accessor has sparse values over rows with gaps.
+bool isSparseWithGaps(const Json& accessor, const Json& root)
+{
+  return accessor.contains("sparse") && accessor.contains("bufferView") &&
+         root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>()).contains("byteStride");
+}
+
 /// An integer as it is, or a share of the largest of its type.
 double number(const char* from, int type, bool normalized)
 {
@@ -138,6 +145,7 @@ GltfFile::GltfFile(const std::string& path, const ReadContents& contentsOf)
 std::string GltfFile::inOrder(const std::string& bytes)
 {
   auto [root, end] = parsed(bytes);
+  Json none = Json::array();
   for (Json& list : root)
   {
     for (Json& item : list)
@@ -148,6 +156,13 @@ std::string GltfFile::inOrder(const std::string& bytes)
       }
     }
   }
+  for (Json& accessor : root.contains("accessors") ? root["accessors"] : none)
+  {
+    if (isSparseWithGaps(accessor, root))
+    {
+      accessor.erase("sparse");
+    }
+  }
   std::string text = root.dump();
   if (end == bytes.size())
   {
@@ -156,6 +171,13 @@ std::string GltfFile::inOrder(const std::string& bytes)
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::string rest = bytes.substr(std::min(end, bytes.size()));
   return "glTF" + word(2) + word(20 + text.size() + rest.size()) + word(text.size()) + "JSON" + text + rest;
+}
+
+bool GltfFile::hasSparseGaps() const
+{
+  const Json accessors = this->Root.value("accessors", Json::array());
+  return std::any_of(
+    accessors.begin(), accessors.end(), [this](const Json& a) { return isSparseWithGaps(a, this->Root); });
 }
 
 std::vector<double> GltfFile::list(

@@ -21,12 +21,15 @@ public:
   static constexpr int floatType = 5126; ///< of an accessor's components
 
   [[noreturn]] static void fail(const char* what);
-  /// The bytes of a file whose names are sorted, with a scene, without extras that are no objects.
+  /// The bytes of a file whose names are sorted, with a scene, without extras that are no objects and without sparse
+  /// values over rows with gaps.
   static std::string inOrder(const std::string& bytes);
 
   GltfFile(const std::string& path, const ReadContents& contentsOf);
 
   const Json& root() const { return this->Root; }
+  /// Whether an accessor has sparse values over rows with gaps.
+  bool hasSparseGaps() const;
   /// Item `index` of a list of the file.
   const Json& item(const char* list, std::size_t index) const { return this->Root.at(list).at(index); }
   /// What integers of an accessor are.

@@ -108,6 +108,14 @@ TEST(GltfMeshes, SparseOverRowsWithGaps)
   EXPECT_EQ(model->rest->positions[t[0]], Eigen::Vector3d(0, 0, 0));
   EXPECT_EQ(model->rest->positions[t[1]], Eigen::Vector3d(1, 0, 0));
   EXPECT_EQ(model->rest->positions[t[2]], Eigen::Vector3d(0, 1, 0));
+
+  maker.json["skins"] = { { { "joints", { 1 } } } }; // without matrices: Assimp may not see it either
+  maker.json["nodes"] = { { { "mesh", 0 }, { "skin", 0 } }, { { "translation", { 0, 0, 2 } } } };
+  maker.json["scenes"] = { { { "nodes", { 0, 1 } } } };
+  attributesOf(maker)["JOINTS_0"] = maker.bytes("VEC4", std::vector<unsigned char>(12));
+  attributesOf(maker)["WEIGHTS_0"] = maker.floats("VEC4", { 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0 });
+  const auto skinned = readBytes("glb", maker.glb());
+  EXPECT_EQ(skinned->rest->positions[skinned->triangles.at(0)[1]], Eigen::Vector3d(1, 0, 2));
 }
 
 TEST(GltfMeshes, NamesHaveNoOrderAndExtrasAnyType)
