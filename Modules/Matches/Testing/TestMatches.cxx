@@ -3,6 +3,7 @@
 #include "dgtkMatchPane.h"
 #include "dgtkMatchTable.h"
 #include "dgtkTestWidgets.h"
+#include "dgtkTruthPanel.h"
 #include "dgtkTruthPicture.h"
 
 #include <QApplication>
@@ -346,6 +347,20 @@ TEST_F(MatchPaneTable, PixelsThatAreLargeHaveAGrid)
     EXPECT_GT(brightest({ column, this->Pane->toWidget({ 0, double(k) }).y() }), 40) << k;
     EXPECT_EQ(painted({ column, this->Pane->toWidget({ 0, k + 0.5 }).y() }), empty) << k;
   }
+}
+
+TEST(TruthPanel, SaysWhyNothingIsKnown)
+{
+  test::needApplication();
+  TruthPanel panel(nullptr);
+  PixelTruth truth;
+  truth.frame = 7;
+  truth.column = 3;
+  truth.row = 4;
+  truth.object = "of a pixel before";
+  truth.message = "mill.ac: not found";
+  panel.showTruth("left", truth, "m");
+  EXPECT_EQ(panel.text().toStdString(), "View\tleft, frame 7\nPixel\tcolumn 3, row 4\nUnknown\tmill.ac: not found");
 }
 
 TEST(TruthPicture, IsAsLargeAsItsWidgetAllows)

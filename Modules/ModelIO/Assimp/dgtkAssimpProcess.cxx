@@ -181,15 +181,13 @@ Answer askOnce(const std::string& path, const std::string& absolute, const std::
 {
   int pipe[2] = { -1, -1 };
   int socket[2] = { -1, -1 };
-  if (::pipe2(pipe, O_CLOEXEC) != 0 || ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, socket) != 0)
-  {
-    const std::string why = std::strerror(errno);
-    Descriptor(pipe[0]).reset();
-    Descriptor(pipe[1]).reset();
-    throw MachineError(path + ": no pipe to its importer: " + why);
-  }
+  const bool isPiped = ::pipe2(pipe, O_CLOEXEC) == 0;
   const Descriptor in(pipe[0]);
   Descriptor out(pipe[1]);
+  if (!isPiped || ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, socket) != 0)
+  {
+    throw MachineError(path + ": no pipe to its importer: " + std::strerror(errno));
+  }
   const Descriptor channel(socket[0]);
   Descriptor theirs(socket[1]);
   import::ModelRequest request;
