@@ -3,6 +3,7 @@
 #include "TestEditorViewer.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkDatasetViewer.h"
 #include "dgtkFile.h"
 #include "dgtkLdi.h"
 #include "dgtkViewWidget.h"
@@ -347,6 +348,15 @@ void TestEditorViewer::aReplacedDatasetIsOpenedAgain()
   dgtk::writeFile(manifest, whole);
   QTRY_COMPARE(opened.count(), 2);
   QVERIFY2(frame().contains("(1 of 3)"), qPrintable(frame()));
+
+  // What the user opens meanwhile is not put aside for it.
+  this->waitForPictures(viewer);
+  dgtk::writeFile(manifest, whole + '\n');
+  QTest::keyClick(viewer, Qt::Key_Period); // it is left when events are looked at
+  qobject_cast<dgtk::DatasetViewer*>(viewer)->openFolder(this->dataset());
+  QTRY_COMPARE(opened.count(), 3);
+  this->waitForPictures(viewer);
+  QCOMPARE(opened.back().front().toString(), this->dataset());
 }
 
 void TestEditorViewer::brokenDatasetsAreRefused()

@@ -60,6 +60,35 @@ TEST(UnplacedSurfaces, HaveACopyOfTheirMaterialWithoutPictures)
     testing::ElementsAre("2 triangles have pictures but no texture coordinates: drawn without pictures"));
 }
 
+TEST(UnplacedSurfaces, AreNotThoseWhoseCoordinatesAreAllZero)
+{
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                          "property float z\nproperty float s\nproperty float t\nelement face 1\n"
+                          "property list uchar int vertex_indices\nend_header\n";
+  GltfMaker gltf;
+  const int positions = gltf.floats("VEC3", { 0, 0, 0, 1, 0, 0, 0, 1, 0 });
+  const int below = gltf.floats("VEC2", { 0, 1, 0, 1, 0, 1 }); // its rows go down
+  gltf.json["meshes"] = {
+    { { "primitives", { { { "attributes", { { "POSITION", positions }, { "TEXCOORD_0", below } } } } } } }
+  };
+  gltf.json["nodes"] = { { { "mesh", 0 } } };
+  gltf.json["scenes"] = { { { "nodes", { 0 } } } };
+  const std::pair<std::string, std::string> files[] = {
+    { "obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n" },
+    { "ply", ply + "0 0 0 0 0\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n" },
+    { "off", "STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n" },
+    { "pov", "mesh { triangle { <0,0,0>, <1,0,0>, <0,1,0> uv_vectors <0,0>, <0,0>, <0,0> } texture { uv_mapping "
+             "pigment { rgb 1 } } }" },
+    { "gltf", gltf.gltf() },
+  };
+  for (const auto& [extension, text] : files)
+  {
+    const auto model = readBytes(extension, text);
+    EXPECT_THAT(model->uvs, testing::Each(Eigen::Vector2d(0, 0))) << extension;
+    EXPECT_TRUE(model->hasUvs(0)) << extension;
+  }
+}
+
 TEST(UnplacedSurfaces, AreToldTriangleByTriangle)
 {
   const std::string faces = "f 1 2 3\nf 2/1 4/1 3/1\nf 1 2 4\n";
