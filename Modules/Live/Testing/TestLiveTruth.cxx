@@ -357,6 +357,20 @@ TEST(LiveView, IsTheEyeOfTheView)
   EXPECT_DOUBLE_EQ(view.far / view.near, 10000);
 }
 
+TEST(LiveView, ReachesToItsFocusAndToAllThatStands)
+{
+  ViewCamera view(ViewKind::Perspective);
+  view.look({ 1, 2, 3 }, { 1, 2, 5 });
+  EXPECT_EQ(liveCamera(view, WorldBox()).far, 2);
+  WorldBox box;
+  box.add(Eigen::Vector3d(0, 0, 3.5));
+  box.add(Eigen::Vector3d(1, 1, 4.5));
+  EXPECT_EQ(liveCamera(view, box).far, 2) << "the focus is behind all of it";
+  box.add(Eigen::Vector3d(9, 9, 13));
+  EXPECT_DOUBLE_EQ(liveCamera(view, box).far, 10.1);
+  EXPECT_DOUBLE_EQ(liveCamera(view, box).near, 10.1 / 1e4);
+}
+
 TEST(LiveView, ACameraOfTheSceneMayBeCalledAsTheEyeIs)
 {
   SceneDescription scene = readScene(sourceFile("Data/Scenes/dataset_stereo.json"));
