@@ -360,6 +360,7 @@ TEST_F(PanelTables, NewCamerasAreThoseOfTheDialog)
   from.near = 0.5;
   from.far = 70;
   CameraDialog dialog(from, nullptr);
+  EXPECT_EQ(dialog.windowTitle(), "Add camera");
   const auto text = [](const CameraDescription& camera)
   {
     SceneDescription scene;
@@ -455,6 +456,7 @@ TEST_F(PanelTables, NewLightsAreThoseOfTheDialog)
   from.coneAngle = 25;
   from.exponent = 4;
   LightDialog dialog(from, nullptr);
+  EXPECT_EQ(dialog.windowTitle(), "Add light");
   const auto text = [](const LightDescription& light)
   {
     SceneDescription scene;

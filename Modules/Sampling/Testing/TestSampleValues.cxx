@@ -382,6 +382,7 @@ TEST(SampleValues, MisuseNamesItsPlace)
   expectRefused(light(R"("intensity":{"uniform":[1,2],"by":3})"), "lights[0].intensity", "unknown key 'by'");
   expectRefused(light(R"("intensity":{"uniform":[1,2],"stratifi":true})"), "lights[0].intensity", "perhaps");
   expectRefused(light(R"("intensity":{"uniform":[-2,-1]})"), "lights[0].intensity", "out of range");
+  expectRefused(light(R"("intensity":{"integer":[0.5,1]})"), "lights[0].intensity.integer[0]", "whole number");
   expectRefused(light(R"("intensity":{"integer":[0,1.5]})"), "lights[0].intensity.integer[1]", "whole number");
   expectRefused(light(R"("intensity":{"logUniform":[0,1]})"), "lights[0].intensity.logUniform[0]", "above 0");
   expectRefused(light(R"("intensity":{"normal":{"mean":0}})"), "lights[0].intensity.normal.deviation", "missing");

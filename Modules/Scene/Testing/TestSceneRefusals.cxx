@@ -227,6 +227,8 @@ TEST(SceneRefusals, JsonValues)
       "a.json:4: lights[0].target is the light's own position at frame 5" },
     { withLight("\"kind\": \"spot\", \"target\": {\"keys\": [[0, [1, 0, 0]], [4, [-1, 0, 0]]]}"),
       "a.json:4: lights[0].target is the light's own position at frame 2" },
+    { withLight("\"kind\": \"spot\", \"target\": {\"keys\": [[90000, [1, 0, 0]], [90004, [-1, 0, 0]]]}"),
+      "a.json:4: lights[0].target is the light's own position at frame 90002" },
     { withLight("\"attenuation\": [0, 0, 0]"), "a.json:4: lights[0].attenuation is zero" },
     { withLight("\"coneAngle\": 91"),
       "lights[0].coneAngle is out of range (expected degrees above 0, up to 90, found 91)" },
