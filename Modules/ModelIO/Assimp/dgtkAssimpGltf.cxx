@@ -399,6 +399,10 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   {
     scene.error = "its quantized vertices cannot be read: " + ofMeshes;
   }
+  else if (!ofMeshes.empty() && file && file->hasSparseGaps())
+  {
+    scene.error = "its sparse values cannot be read: " + ofMeshes;
+  }
   else if (!ofUses.empty() && file && (nodesSay(*file, "skin") || nodesSay(*file, "weights")))
   {
     scene.error = "its skins or weights of morph targets: " + ofUses;

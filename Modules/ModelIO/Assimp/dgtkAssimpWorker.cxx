@@ -294,7 +294,7 @@ void read(const std::string& path, const std::string& format, Scene& scene)
     files->Text = dgtk::import::inOrder(contents(path));
     found = files->Text.empty() ? found : importer.ReadFile(path, 0u);
   }
-  files->Text.clear();
+  std::string().swap(files->Text); // and its memory
   scene.bytesRead = files->Bytes;
   if (refuseLongNumber(*files, scene))
   {

@@ -90,11 +90,28 @@ std::string fromBase64(const std::string& text, std::size_t begin)
 
 std::size_t bytesOf(int type) { return type == 5126 || type == 5125 ? 4 : type == 5122 || type == 5123 ? 2 : 1; }
 
+/// Components of a row of an accessor, 0 where its type is unknown.
+std::size_t widthOf(const Json& accessor)
+{
+  static const std::map<std::string, std::size_t> widths = { { "SCALAR", 1 }, { "VEC2", 2 }, { "VEC3", 3 },
+    { "VEC4", 4 }, { "MAT4", 16 } };
+  const auto found = widths.find(accessor.at("type").get<std::string>());
+  return found == widths.end() ? 0 : found->second;
+}
+
 /// Whether an accessor has sparse values over rows with gaps.
 bool isSparseWithGaps(const Json& accessor, const Json& root)
 {
-  return accessor.contains("sparse") && accessor.contains("bufferView") &&
-         root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>()).contains("byteStride");
+  try
+  {
+    return accessor.is_object() && accessor.contains("sparse") &&
+           root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>()).value("byteStride", std::size_t(0)) >
+             widthOf(accessor) * bytesOf(accessor.at("componentType"));
+  }
+  catch (const Json::exception&)
+  {
+    return false; // there is no such accessor
+  }
 }
 
 /// An integer as it is, or a share of the largest of its type.
@@ -145,7 +162,6 @@ GltfFile::GltfFile(const std::string& path, const ReadContents& contentsOf)
 std::string GltfFile::inOrder(const std::string& bytes)
 {
   auto [root, end] = parsed(bytes);
-  Json none = Json::array();
   for (Json& list : root)
   {
     for (Json& item : list)
@@ -154,13 +170,10 @@ std::string GltfFile::inOrder(const std::string& bytes)
       {
         item.erase("extras");
       }
-    }
-  }
-  for (Json& accessor : root.contains("accessors") ? root["accessors"] : none)
-  {
-    if (isSparseWithGaps(accessor, root))
-    {
-      accessor.erase("sparse");
+      if (isSparseWithGaps(item, root))
+      {
+        item.erase("sparse");
+      }
     }
   }
   std::string text = root.dump();
@@ -206,9 +219,7 @@ std::vector<double> GltfFile::numbers(std::size_t index, std::size_t components,
 {
   constexpr std::size_t mostWithoutBytes = 1 << 24;
   const Json& accessor = this->item("accessors", index);
-  static const std::map<std::string, std::size_t> widths = { { "SCALAR", 1 }, { "VEC2", 2 }, { "VEC3", 3 },
-    { "VEC4", 4 }, { "MAT4", 16 } };
-  if (widths.at(accessor.at("type")) != components)
+  if (widthOf(accessor) != components)
   {
     GltfFile::fail("an accessor is of an unexpected type");
   }

@@ -90,18 +90,29 @@ TEST(GltfMeshes, ColoursOfVertices)
   EXPECT_THROW(readBytes("glb", sparse(3).glb()), dgtk::InputError);
 }
 
-TEST(GltfMeshes, SparseOverRowsWithGaps)
+namespace
+{
+/// A triangle whose corner `place` is said to be (1, 0, 0) by its sparse values.
+GltfMaker sparse(int place, int stride)
 {
   GltfMaker maker = bare();
   const int rows = maker.floats("VEC3", { 0, 0, 0, 7, 7, 7, 9, 9, 9, 7, 7, 7, 0, 1, 0, 7, 7, 7 });
-  const Json places = maker.json["accessors"][std::size_t(maker.shorts("SCALAR", { 1 }))]["bufferView"];
-  const Json values = maker.json["accessors"][std::size_t(maker.floats("VEC3", { 1, 0, 0 }))]["bufferView"];
+  const auto viewOf = [&](int accessor) { return maker.json["accessors"][std::size_t(accessor)]["bufferView"]; };
+  const Json places = viewOf(maker.shorts("SCALAR", { std::uint16_t(place) }));
+  const Json values = viewOf(maker.floats("VEC3", { 1, 0, 0 }));
   Json& accessor = maker.json["accessors"][std::size_t(rows)];
   accessor["count"] = 3;
   accessor["sparse"] = { { "count", 1 }, { "indices", { { "bufferView", places }, { "componentType", 5123 } } },
     { "values", { { "bufferView", values } } } };
-  maker.json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteStride"] = 24;
+  maker.json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteStride"] = stride;
   attributesOf(maker)["POSITION"] = rows;
+  return maker;
+}
+} // namespace
+
+TEST(GltfMeshes, SparseOverRowsWithGaps)
+{
+  GltfMaker maker = sparse(1, 24);
   const auto model = readBytes("glb", maker.glb());
   EXPECT_EQ(brokenPromise(*model), "");
   const auto& t = model->triangles.at(0);
@@ -114,8 +125,33 @@ TEST(GltfMeshes, SparseOverRowsWithGaps)
   maker.json["scenes"] = { { { "nodes", { 0, 1 } } } };
   attributesOf(maker)["JOINTS_0"] = maker.bytes("VEC4", std::vector<unsigned char>(12));
   attributesOf(maker)["WEIGHTS_0"] = maker.floats("VEC4", { 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0 });
-  const auto skinned = readBytes("glb", maker.glb());
-  EXPECT_EQ(skinned->rest->positions[skinned->triangles.at(0)[1]], Eigen::Vector3d(1, 0, 2));
+  const auto cornerOf = [&]
+  {
+    const auto skinned = readBytes("glb", maker.glb());
+    return skinned->rest->positions.at(skinned->triangles.at(0)[1]);
+  };
+  EXPECT_EQ(cornerOf(), Eigen::Vector3d(1, 0, 2));
+  maker.json["accessors"].push_back({ { "bufferView", 99 }, { "sparse", Json::object() } }); // that nothing uses
+  EXPECT_EQ(cornerOf(), Eigen::Vector3d(1, 0, 2));
+  maker.json["accessors"][attributesOf(maker)["POSITION"].get<std::size_t>()].erase("sparse");
+  EXPECT_EQ(cornerOf(), Eigen::Vector3d(9, 9, 11));
+}
+
+TEST(GltfMeshes, SparseValuesThatCannotBeRead)
+{
+  for (const int stride : { 12, 24 })
+  {
+    try
+    {
+      readBytes("glb", sparse(3, stride).glb()); // there is no fourth one
+      FAIL() << stride;
+    }
+    catch (const std::exception& error)
+    {
+      EXPECT_THAT(
+        error.what(), testing::HasSubstr(stride == 12 ? "nvalid sparse" : "its sparse values cannot be read"));
+    }
+  }
 }
 
 TEST(GltfMeshes, NamesHaveNoOrderAndExtrasAnyType)
