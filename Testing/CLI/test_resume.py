@@ -238,6 +238,14 @@ class Resume(ManyCase):
         self.assertEqual(load_json(self.path("d", "manifest.json"))["request"]["seed"], "7")
         self.refused(*render, "--seed", "8", "--resume", status=2, says="another request")
 
+    def test_the_name_of_a_scene_is_part_of_its_request(self):
+        text = json.dumps({"cameras": [{"name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0]}]})
+        for name in ("a", "b"):
+            self.dgtk("render", self.write(f"{name}.json", text), "-o", self.path(name), "--quiet", "--layers", "depth", "--size", "8x6")
+        a, b = (load_json(self.path(name, "manifest.json")) for name in ("a", "b"))
+        self.assertEqual(a["inputs"][0]["sha256"], b["inputs"][0]["sha256"])
+        self.assertNotEqual(a["request_hash"], b["request_hash"])
+
 
 if __name__ == "__main__":
     main()

@@ -237,6 +237,9 @@ class FlyingThings(datasets.ExportCase):
         self.assertIn("layer flow_backward", self.planted(dataset, folder, name, lambda data: data[:-6] + bytes([data[-6] ^ 1]) + data[-5:]))
         name = f"camera_data/{sequence}/camera_data.txt"
         self.assertIn("layer pose", self.planted(dataset, folder, name, lambda text: text.replace(b"\nL 1 ", b"\nL -1 ", 1)))
+        for line, side in ((2, b"L"), (3, b"R")):
+            said = self.planted(dataset, folder, name, lambda text: text.replace(b"\n" + side + b" 1 ", b"\n" + side + b" x ", 1))  # noqa: B023
+            self.assertIn(f"camera_data.txt:{line}: ", said)
 
     def test_parts(self):
         dataset = self.render(datasets.stereo(self.path("scene")), self.LAYERS)
