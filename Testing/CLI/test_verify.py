@@ -7,11 +7,11 @@ import shutil
 import struct
 import subprocess
 import tempfile
-import zlib
 
 import numpy
 
 from dataset_edits import Edits
+import pictures
 from harness import SCENES, load_json, main
 from many_runs import ManyCase
 
@@ -23,16 +23,6 @@ PAIRS = ",correspondence,disparity,disparity_forward,disparity_backward,flow_for
 def contents(path):
     with open(path, "rb") as file:
         return file.read()
-
-
-def gray_png(width, height, value):
-    """An 8-bit gray picture of one value."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = zlib.compress((b"\0" + bytes([value]) * width) * height)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
-            chunk(b"IDAT", rows) + chunk(b"IEND", b""))
 
 
 class Spoiled(ManyCase):
@@ -87,6 +77,11 @@ class Spoiled(ManyCase):
         """Replaces the values of a .npy file of the dataset."""
         values = numpy.load(self.path("set", name))
         numpy.save(self.path("set", name), edit(values))
+        self.accept(name)
+
+    def fill(self, name, value):
+        """Replaces a picture of the dataset by one of one grey."""
+        pictures.write_png(self.path("set", name), numpy.full((HEIGHT, WIDTH), value, numpy.uint8))
         self.accept(name)
 
     def edit(self, name, change):
@@ -221,9 +216,7 @@ class Planted(Spoiled):
 
     def test_class_image(self):
         # Visible where the surface is hidden.
-        png = gray_png(WIDTH, HEIGHT, 1)
-        self.write(os.path.join("set", "left", "correspondence_right", "000000.png"), png)
-        self.accept("left/correspondence_right/000000.png")
+        self.fill("left/correspondence_right/000000.png", 1)
         self.found("left/correspondence_right/000000.png: pixel", "class", "found 1")
 
 
@@ -286,8 +279,7 @@ class PlantedObjects(Spoiled):
         self.found("left/ldi/000000.ldi", "ldi", "ends at byte")
 
     def test_classes_of_one_value(self):
-        self.write(os.path.join("set", "right", "classes", "000000.png"), gray_png(WIDTH, HEIGHT, 200))
-        self.accept("right/classes/000000.png")
+        self.fill("right/classes/000000.png", 200)
         self.found("right/classes/000000.png: pixel (0, 0)", "partition", "found 200")
 
     def test_amodal_mask_moved(self):
