@@ -267,7 +267,7 @@ class Ros(datasets.ExportCase):
 
     def test_pictures(self):
         """Colours as they are, depths rounded to float, by as much as the record says."""
-        values, largest = 0, 0
+        values, largest, roundings = 0, 0, 0
         for camera, name in self.NAMES.items():
             colors, depths = self.by_topic(f"/{name}/image_raw/compressed"), self.by_topic(f"/{name}/depth/image_raw")
             self.assertEqual((sorted(colors), sorted(depths)), ([0, 1, 2], [0, 1, 2]))
@@ -282,7 +282,11 @@ class Ros(datasets.ExportCase):
                 np.testing.assert_array_equal(found, expected.astype(np.float32))
                 values += np.isfinite(expected).sum()
                 largest = max(largest, np.nanmax(np.abs(found - expected)))
-        for record in self.records.values():
+                roundings = max(roundings, np.nanmax(np.abs(found - expected) / np.abs(expected)) / 5.97e-8)
+        for form, record in self.records.items():
+            report = self.referee(self.dataset, self.folders[form])
+            row, = (row for row in report["residuals"] if row["unit"] == "roundings to float32")
+            self.assertAlmostEqual(row["largest"], roundings, delta=1e-9)
             depth = next(row for row in record["layers"] if row["layer"] == "depth")
             self.assertEqual((depth["values"], depth["unit"], depth["without_code"]), (values, "m", 0))
             self.assertAlmostEqual(depth["largest_rounding"], largest, delta=1e-6 * largest)
