@@ -280,7 +280,7 @@ void requireExtension(const std::string& name, Scene& scene)
 {
   const std::set<std::string> known{ textureTransform, "KHR_mesh_quantization", "KHR_lights_punctual",
     "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness" };
-  if (isPacking(name) && scene.error.empty())
+  if (isPacking(name))
   {
     scene.error = needs(name);
   }
@@ -325,6 +325,12 @@ std::string withoutSkins(std::string bytes)
     }
   }
   return bytes;
+}
+
+/// Of a file that cannot be parsed, although the importer reads it.
+bool maySparseHaveGaps(const std::string& bytes)
+{
+  return bytes.find(sparseKey) != std::string::npos && bytes.find("\"byteStride\"") != std::string::npos;
 }
 
 /// A node that says nonsense stays as the importer has it.
@@ -390,6 +396,8 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   const std::string ofMotion = nodes ? problemOf([&] { repairMotion(*file, *nodes, scene); }) : problem;
   const std::string ofMeshes = nodes ? problemOf([&] { repairMeshes(*file, *nodes, scene); }) : problem;
   const std::string ofUses = nodes ? problemOf([&] { repairUses(*file, *nodes, scene); }) : problem;
+  const std::string& ofSparse = !ofMeshes.empty() ? ofMeshes : !ofUses.empty() ? ofUses : ofMotion;
+  const bool hasSparseGaps = file ? file->hasSparseGaps() : maySparseHaveGaps(contentsOf(path));
   if (!ofMotion.empty() && !scene.animations.empty())
   {
     scene.warnings.push_back("animations are taken from the importer, without steps and splines: " + ofMotion);
@@ -399,9 +407,9 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   {
     scene.error = "its quantized vertices cannot be read: " + ofMeshes;
   }
-  else if (!ofMeshes.empty() && file && file->hasSparseGaps())
+  else if (!ofSparse.empty() && hasSparseGaps)
   {
-    scene.error = "its sparse values cannot be read: " + ofMeshes;
+    scene.error = "its sparse values cannot be read: " + ofSparse;
   }
   else if (!ofUses.empty() && file && (nodesSay(*file, "skin") || nodesSay(*file, "weights")))
   {

@@ -186,11 +186,12 @@ std::string GltfFile::inOrder(const std::string& bytes)
   return "glTF" + word(2) + word(20 + text.size() + rest.size()) + word(text.size()) + "JSON" + text + rest;
 }
 
+bool GltfFile::hasSparseGaps(const Json& accessor) const { return isSparseWithGaps(accessor, this->Root); }
+
 bool GltfFile::hasSparseGaps() const
 {
   const Json accessors = this->Root.value("accessors", Json::array());
-  return std::any_of(
-    accessors.begin(), accessors.end(), [this](const Json& a) { return isSparseWithGaps(a, this->Root); });
+  return std::any_of(accessors.begin(), accessors.end(), [this](const Json& a) { return this->hasSparseGaps(a); });
 }
 
 std::vector<double> GltfFile::list(

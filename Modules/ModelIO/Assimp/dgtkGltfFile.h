@@ -28,7 +28,8 @@ public:
   GltfFile(const std::string& path, const ReadContents& contentsOf);
 
   const Json& root() const { return this->Root; }
-  /// Whether an accessor has sparse values over rows with gaps.
+  /// Whether an accessor, or one of all, has sparse values over rows with gaps.
+  bool hasSparseGaps(const Json& accessor) const;
   bool hasSparseGaps() const;
   /// Item `index` of a list of the file.
   const Json& item(const char* list, std::size_t index) const { return this->Root.at(list).at(index); }

@@ -127,7 +127,12 @@ private:
     const int mode = primitive.value("mode", 4);
     if (mode >= 4 && primitive.contains("indices"))
     {
-      const std::size_t corners = this->File.item("accessors", primitive.at("indices")).at("count");
+      const Json& accessor = this->File.item("accessors", primitive.at("indices"));
+      if (this->File.hasSparseGaps(accessor))
+      {
+        GltfFile::fail("they are indices"); // which are the importer's
+      }
+      const std::size_t corners = accessor.at("count");
       const std::size_t all = mode == 4 ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
       this->LeftOut += all - std::min(all, found);
     }

@@ -139,19 +139,45 @@ TEST(GltfMeshes, SparseOverRowsWithGaps)
 
 TEST(GltfMeshes, SparseValuesThatCannotBeRead)
 {
-  for (const int stride : { 12, 24 })
+  const auto refusal = [](const std::string& bytes)
   {
     try
     {
-      readBytes("glb", sparse(3, stride).glb()); // there is no fourth one
-      FAIL() << stride;
+      readBytes("glb", bytes);
+      return std::string("read");
     }
     catch (const std::exception& error)
     {
-      EXPECT_THAT(
-        error.what(), testing::HasSubstr(stride == 12 ? "nvalid sparse" : "its sparse values cannot be read"));
+      return std::string(error.what());
     }
-  }
+  };
+  const std::string unread = "its sparse values cannot be read: ";
+  EXPECT_THAT(refusal(sparse(3, 12).glb()), testing::HasSubstr("Invalid sparse accessor")); // there is no fourth one
+  EXPECT_THAT(refusal(sparse(3, 24).glb()), testing::HasSubstr(unread + "an accessor changes what is not there"));
+  GltfMaker named = sparse(1, 24);
+  named.json["nodes"][0]["name"] = "a name";
+  std::string latin = named.glb();
+  latin[latin.find("a name") + 1] = '\xe9';
+  EXPECT_THAT(refusal(latin), testing::HasSubstr(unread));
+  GltfMaker indexed = sparse(1, 24);
+  const Json ones = indexed.json["accessors"][attributesOf(indexed)["POSITION"].get<std::size_t>()]["sparse"];
+  const std::size_t corner = std::size_t(indexed.shorts("SCALAR", { 0, 9, 1, 9, 2, 9 }));
+  Json& indices = indexed.json["accessors"][corner];
+  indices["count"] = 3;
+  indices["sparse"] = { { "count", 1 }, { "indices", ones["indices"] }, { "values", ones["indices"] } };
+  indexed.json["bufferViews"][indices["bufferView"].get<std::size_t>()]["byteStride"] = 4;
+  indexed.json["meshes"][0]["primitives"][0]["indices"] = corner;
+  EXPECT_THAT(refusal(indexed.glb()), testing::HasSubstr(unread + "they are indices"));
+  GltfMaker moved = sparse(1, 24);
+  Json& primitive = moved.json["meshes"][0]["primitives"][0];
+  const Json good = primitive["attributes"]["POSITION"];
+  Json bad = moved.json["accessors"][good.get<std::size_t>()];
+  bad["sparse"]["count"] = 9;
+  moved.json["accessors"].push_back(bad);
+  primitive["targets"] = { { { "NORMAL", moved.json["accessors"].size() - 1 } } };
+  primitive["attributes"]["NORMAL"] = moved.floats("VEC3", { 0, 0, 1, 0, 0, 1, 0, 0, 1 });
+  moved.json["meshes"][0]["weights"] = { 1 };
+  EXPECT_THAT(refusal(moved.glb()), testing::HasSubstr(unread));
 }
 
 TEST(GltfMeshes, NamesHaveNoOrderAndExtrasAnyType)
