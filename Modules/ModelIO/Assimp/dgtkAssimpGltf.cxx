@@ -350,11 +350,12 @@ void repairPlaces(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
 
 std::string withoutHarm(const std::string& path, const ReadContents& contentsOf)
 {
+  std::string bytes;
   std::string written;
-  problemOf(
+  const std::string problem = problemOf(
     [&]
     {
-      const std::string bytes = contentsOf(path);
+      bytes = contentsOf(path);
       if (bytes.find(skinKey) == std::string::npos && bytes.find(sparseKey) == std::string::npos)
       {
         return; // as most files, which are not parsed for it
@@ -362,6 +363,10 @@ std::string withoutHarm(const std::string& path, const ReadContents& contentsOf)
       const GltfFile file(path, [&bytes](const std::string&) { return bytes; });
       written = file.hasSparseGaps() ? inOrder(bytes) : nodesSay(file, "skin") ? withoutSkins(bytes) : std::string();
     });
+  if (!problem.empty() && maySparseHaveGaps(bytes))
+  {
+    throw std::runtime_error("its sparse values cannot be read: " + problem);
+  }
   return written;
 }
 
@@ -397,7 +402,6 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   const std::string ofMeshes = nodes ? problemOf([&] { repairMeshes(*file, *nodes, scene); }) : problem;
   const std::string ofUses = nodes ? problemOf([&] { repairUses(*file, *nodes, scene); }) : problem;
   const std::string& ofSparse = !ofMeshes.empty() ? ofMeshes : !ofUses.empty() ? ofUses : ofMotion;
-  const bool hasSparseGaps = file ? file->hasSparseGaps() : maySparseHaveGaps(contentsOf(path));
   if (!ofMotion.empty() && !scene.animations.empty())
   {
     scene.warnings.push_back("animations are taken from the importer, without steps and splines: " + ofMotion);
@@ -407,7 +411,7 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   {
     scene.error = "its quantized vertices cannot be read: " + ofMeshes;
   }
-  else if (!ofSparse.empty() && hasSparseGaps)
+  else if (!ofSparse.empty() && file && file->hasSparseGaps())
   {
     scene.error = "its sparse values cannot be read: " + ofSparse;
   }

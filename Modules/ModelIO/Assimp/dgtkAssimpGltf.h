@@ -15,7 +15,8 @@ using ReadContents = std::function<std::string(const std::string& name)>;
 
 /// The bytes of a glTF file without what harms Assimp 5.2 and repairGltf() reads; "" where there is nothing such. It
 /// crashes on a skin without matrices, mixes up joints of several types, gives all nodes of a mesh the skin of the last
-/// one, and reads beyond sparse accessors whose rows have gaps.
+/// one, and reads beyond sparse accessors whose rows have gaps. Throws std::runtime_error where those may be in what
+/// cannot be parsed.
 std::string withoutHarm(const std::string& path, const ReadContents& contentsOf);
 /// As withoutHarm(), as Assimp 5.2 takes them: it wants a scene, the sets of an attribute in the order of their
 /// numbers, and extras to be objects. "" where they are no glTF.
