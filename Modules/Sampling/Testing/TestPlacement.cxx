@@ -40,7 +40,6 @@ PlaceBody bodyOf(
   return PlaceBody(std::move(made));
 }
 
-constexpr double rounding = 1e-15; ///< of a few products about 1
 const Eigen::Vector3d down(0, -1, 0);
 
 const ObjectDescription& object(const PlaceScene& made, const std::string& name)
@@ -54,21 +53,6 @@ Eigen::Matrix3d about(const Eigen::Vector3d& axis, double degrees)
   return Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180, axis).matrix();
 }
 } // namespace
-
-TEST(TriangleTree, ThePointOfATriangleThatIsNearest)
-{
-  const SolidMesh mesh = solidMesh({ { 0, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } });
-  const TriangleTree tree(mesh, 0, 1);
-  const Eigen::Vector3d cases[][2] = { // where, and what is nearest: corners, sides, the face
-    { { -1, -1, 3 }, { 0, 0, 0 } }, { { 3, -0.5, 1 }, { 2, 0, 0 } }, { { -0.2, 2, -1 }, { 0, 1, 0 } },
-    { { 0.25, -1, 2 }, { 0.25, 0, 0 } }, { { -1, 0.25, 1 }, { 0, 0.25, 0 } }, { { 1.3, 1.1, 2 }, { 1, 0.5, 0 } },
-    { { 0.5, 0.25, -3 }, { 0.5, 0.25, 0 } }
-  };
-  for (const auto& [where, expected] : cases)
-  {
-    EXPECT_LT((tree.nearest(where) - expected).norm(), rounding) << where.transpose();
-  }
-}
 
 TEST(PlaceBody, DepthsAreThoseOfOverlappingBoxes)
 {

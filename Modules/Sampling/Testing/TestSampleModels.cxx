@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPlaceBody.h"
 #include "dgtkSampleModels.h"
-
 #include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -37,4 +37,20 @@ TEST(SampleModels, KeepsFewLooks)
   }
   EXPECT_GT(most, 500U) << "each look is one";
   EXPECT_LE(most, SampleModels::mostLooks + 50);
+}
+
+TEST(TriangleTree, ThePointOfATriangleThatIsNearest)
+{
+  constexpr double rounding = 1e-15; // of a few products about 1
+  const SolidMesh mesh = solidMesh({ { 0, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } });
+  const TriangleTree tree(mesh, 0, 1);
+  const Eigen::Vector3d cases[][2] = { // where, and what is nearest: corners, sides, the face
+    { { -1, -1, 3 }, { 0, 0, 0 } }, { { 3, -0.5, 1 }, { 2, 0, 0 } }, { { -0.2, 2, -1 }, { 0, 1, 0 } },
+    { { 0.25, -1, 2 }, { 0.25, 0, 0 } }, { { -1, 0.25, 1 }, { 0, 0.25, 0 } }, { { 1.3, 1.1, 2 }, { 1, 0.5, 0 } },
+    { { 0.5, 0.25, -3 }, { 0.5, 0.25, 0 } }
+  };
+  for (const auto& [where, expected] : cases)
+  {
+    EXPECT_LT((tree.nearest(where) - expected).norm(), rounding) << where.transpose();
+  }
 }
