@@ -3,8 +3,6 @@
 #include "TestEditorViewer.h"
 
 #include "dgtkDatasetDocuments.h"
-#include "dgtkDatasetViewer.h"
-#include "dgtkFile.h"
 #include "dgtkLdi.h"
 #include "dgtkViewWidget.h"
 
@@ -17,7 +15,6 @@
 #include <QMessageBox>
 #include <QOpenGLWidget>
 #include <QProcess>
-#include <QSignalSpy>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTimer>
@@ -319,44 +316,6 @@ void TestEditorViewer::layeredImagesHaveSurfaces()
     }
     QVERIFY2(found, qPrintable(text));
   }
-}
-
-/// When the next picture is asked for: nothing of the other one goes with what was read of this one.
-void TestEditorViewer::aReplacedDatasetIsOpenedAgain()
-{
-  const std::string folder = this->Folder.path("replaced");
-  const std::string manifest = folder + "/manifest.json";
-  fs::copy(this->dataset().toStdString(), folder, fs::copy_options::recursive);
-  QMainWindow* const viewer = this->open(QString::fromStdString(folder));
-  QVERIFY(viewer != nullptr);
-  QSignalSpy opened(viewer, SIGNAL(opened(QString)));
-  const std::string whole = dgtk::readFile(manifest) + '\n';
-  dgtk::writeFile(manifest, whole);
-  QTest::keyClick(viewer, Qt::Key_Period);
-  QTRY_COMPARE(opened.count(), 1);
-  const auto frame = [&] { return viewer->findChild<QLabel*>("frameText")->text(); };
-  QVERIFY2(frame().contains("(2 of 3)"), qPrintable(frame())); // that was asked for
-  this->waitForPictures(viewer);
-  QTest::keyClick(viewer, Qt::Key_Period);
-  this->waitForPictures(viewer);
-  QCOMPARE(opened.count(), 1);
-
-  fs::remove(manifest);                  // as a run does that replaces it
-  QTest::keyClick(viewer, Qt::Key_Home); // what was read already
-  QTRY_VERIFY(viewer->findChild<QLabel*>("emptyText")->isVisible());
-  triggerAll(viewer);
-  dgtk::writeFile(manifest, whole);
-  QTRY_COMPARE(opened.count(), 2);
-  QVERIFY2(frame().contains("(1 of 3)"), qPrintable(frame()));
-
-  // What the user opens meanwhile is not put aside for it.
-  this->waitForPictures(viewer);
-  dgtk::writeFile(manifest, whole + '\n');
-  QTest::keyClick(viewer, Qt::Key_Period); // it is left when events are looked at
-  qobject_cast<dgtk::DatasetViewer*>(viewer)->openFolder(this->dataset());
-  QTRY_COMPARE(opened.count(), 3);
-  this->waitForPictures(viewer);
-  QCOMPARE(opened.back().front().toString(), this->dataset());
 }
 
 void TestEditorViewer::brokenDatasetsAreRefused()

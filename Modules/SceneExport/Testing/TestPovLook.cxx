@@ -306,19 +306,6 @@ TEST_F(PovLook, PicturesThatArePlainAreUsedAsTheyAre)
   }
 }
 
-TEST_F(PovLook, NamesOfPicturesThatArePlain)
-{
-  const std::string plain = "AZaz09-_.,+ ().png";
-  exportPov(textured(this->path(plain), 2, false), this->path("q.pov"));
-  EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("image_map { png \"" + plain + '"'));
-  for (const char c : { '@', '[', '`', '{', ':', '"', '\xe9' }) // beside those, and what ends a string
-  {
-    exportPov(
-      textured(this->path(std::string("x") + c + ".png"), 2, false), this->path(std::string("AZ") + c + ".pov"));
-    EXPECT_THAT(readFile(this->path(std::string("AZ") + c + ".pov")), HasSubstr("image_map { ppm \"AZ__0.ppm\"")) << c;
-  }
-}
-
 TEST_F(PovLook, PicturesAreTintedInTheirTexels)
 {
   const auto quad = textured(this->path("t.png"), 2, false);

@@ -341,6 +341,23 @@ TEST_F(PovWhole, PicturesOfALibrary)
   EXPECT_EQ(files["wood panel_mask.pgm"], "P5\n2 2\n255\n\xff\xff\xff\xff");
 }
 
+TEST_F(PovWhole, NamesOfPicturesThatPovRayIsGiven)
+{
+  const auto written = [this](const std::string& picture, const std::string& scene)
+  {
+    exportPov(makePictured(this->Folder.path(picture)), this->Folder.path(scene));
+    return readFile(this->Folder.path(scene));
+  };
+  const std::string plain = "AZaz09-_.,+ ().png";
+  EXPECT_THAT(written(plain, "q.pov"), testing::HasSubstr("image_map { png \"" + plain + '"'));
+  for (const char c : { '@', '[', '`', '{', ':', '"', '\xe9' }) // beside those, and what ends a string
+  {
+    EXPECT_THAT(written(std::string("x") + c + ".png", std::string("AZ") + c + ".pov"),
+      testing::HasSubstr("image_map { ppm \"AZ__0.ppm\""))
+      << c;
+  }
+}
+
 // A mesh is known by addresses; another may come to stand there.
 TEST_F(PovWhole, MeshesOfALibraryThatAreGoneAreForgotten)
 {
