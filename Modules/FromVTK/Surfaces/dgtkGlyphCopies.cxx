@@ -250,6 +250,7 @@ std::shared_ptr<const Model> writtenOut(const SurfaceModel& surface)
     const std::size_t before = geometry->positions.size();
     model->uvs.resize(model->uvs.empty() && copy.model->uvs.empty() ? 0 : before, Eigen::Vector2d(0, 0));
     append(*copy.model, copy.object_from_model, *model, *geometry);
+    model->unplaced.resize(model->triangles.size(), copy.model->hasUvs(0) ? 0 : 1); // a shape has one piece
     model->parts.back().triangles += std::uint32_t(copy.model->triangles.size());
     if (!surface.tints.empty())
     {
@@ -259,6 +260,10 @@ std::shared_ptr<const Model> writtenOut(const SurfaceModel& surface)
   if (!model->uvs.empty())
   {
     model->uvs.resize(geometry->positions.size(), Eigen::Vector2d(0, 0));
+  }
+  else
+  {
+    model->unplaced.clear();
   }
   model->sourceVertices = geometry->positions.size();
   model->rest = geometry;

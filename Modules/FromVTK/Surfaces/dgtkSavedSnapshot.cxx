@@ -142,11 +142,12 @@ private:
       text += "usemtl " + m.materials[std::size_t(part.material)].name + '\n';
       for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
       {
+        const bool placed = this->MapIsTexture ? !uvs.empty() : m.hasUvs(t);
         text += 'f';
         for (const std::uint32_t corner : m.triangles[t])
         {
           const std::string index = std::to_string(corner + 1);
-          text += ' ' + index + '/' + (uvs.empty() ? "" : index) + '/' + index;
+          text += ' ' + index + '/' + (placed ? index : "") + '/' + index;
         }
         text += '\n';
       }

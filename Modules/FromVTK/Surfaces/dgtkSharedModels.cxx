@@ -56,7 +56,7 @@ bool equalAll(const Items& a, const Items& b, const Equal& equal)
 bool equalModels(const Model& a, const Model& b)
 {
   return a.triangles == b.triangles && a.rest->positions == b.rest->positions && a.rest->normals == b.rest->normals &&
-         a.uvs == b.uvs && a.colors == b.colors && a.colorMapAt == b.colorMapAt &&
+         a.uvs == b.uvs && a.unplaced == b.unplaced && a.colors == b.colors && a.colorMapAt == b.colorMapAt &&
          equalImages(a.colorMap, b.colorMap) && equalAll(a.parts, b.parts, equalParts) &&
          equalAll(a.materials, b.materials, equalMaterials) && equalAll(a.textures, b.textures, equalTextures);
 }

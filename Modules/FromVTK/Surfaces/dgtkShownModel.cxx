@@ -25,6 +25,7 @@ public:
     , Points(std::make_shared<Geometry>(*from.rest))
   {
     this->To->triangles.clear();
+    this->To->unplaced.clear();
     this->To->parts.clear();
   }
 
@@ -45,6 +46,7 @@ public:
       }
     }
     this->keepPlace();
+    this->setPlaced();
     this->To->rest = this->Points;
     return { this->To, std::move(this->Parents) };
   }
@@ -58,6 +60,17 @@ private:
       this->To->triangles.push_back({ 0, 0, 0 });
       this->To->parts.push_back({ this->From.parts.front().name, this->From.parts.front().material, 0, 1 });
       this->Parents.push_back(0);
+    }
+  }
+
+  void setPlaced()
+  {
+    if (!this->From.unplaced.empty())
+    {
+      for (const std::uint32_t parent : this->Parents)
+      {
+        this->To->unplaced.push_back(this->From.unplaced[parent]);
+      }
     }
   }
 

@@ -269,6 +269,7 @@ private:
       corners[i] = this->vertex(points[i], p[i], flat);
     }
     this->ToModel.triangles.push_back(corners);
+    this->ToModel.unplaced.push_back(this->Uvs ? 0 : 1);
     this->To.cells.push_back(this->cellNumber());
   }
 
@@ -424,6 +425,10 @@ void complete(Model& model, Geometry& geometry)
   if (!model.uvs.empty() || maps)
   {
     model.uvs.resize(vertices, Eigen::Vector2d(0, 0));
+  }
+  if (model.uvs.empty() || std::find(model.unplaced.begin(), model.unplaced.end(), 1) == model.unplaced.end())
+  {
+    std::vector<std::uint8_t>().swap(model.unplaced);
   }
   for (const Eigen::Vector3d& p : geometry.positions)
   {

@@ -15,6 +15,7 @@
 #include <vtkImageData.h>
 #include <vtkLookupTable.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
 #include <vtkTexture.h>
@@ -22,7 +23,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace
@@ -141,6 +145,52 @@ TEST_F(Snapshots, GiveABlockWithoutScalarsTheColourOfNoNumber)
     const Eigen::Vector3d expected = missing ? Eigen::Vector3d(0.2, 0.4, 0.6) : Eigen::Vector3d(1, 1, 1);
     EXPECT_LT((materials[1].diffuse - expected).norm(), 1e-9);
   }
+}
+
+/// What has no texture coordinates is told from what has (0, 0), also after clipping and in a scene that is saved.
+TEST_F(Snapshots, GiveABlockWithoutTextureCoordinatesNone)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, square(-1.5, 0));
+  blocks->SetBlock(1, square(0.5, 0));
+  vtkPolyData::SafeDownCast(blocks->GetBlock(1))->GetPointData()->SetTCoords(nullptr);
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(blocks);
+  this->add(mapper.Get());
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(0, 1, 0);
+  plane->SetOrigin(0, 0.5, 0);
+  for (const bool isClipped : { false, true })
+  {
+    if (isClipped)
+    {
+      mapper->AddClippingPlane(plane);
+    }
+    const auto state = this->take()->GetStage()->at(0);
+    const dgtk::Model& model = *state->instances.at(0).model;
+    ASSERT_EQ(model.parts.size(), 2u);
+    ASSERT_GE(model.triangles.size(), 4u);
+    for (std::uint32_t t = 0; t < model.triangles.size(); ++t)
+    {
+      EXPECT_EQ(model.hasUvs(t), model.partOf(t) == 0) << t;
+    }
+  }
+  mapper->RemoveAllClippingPlanes();
+  const std::string folder = testing::TempDir() + "dgtk-placed/";
+  std::filesystem::create_directories(folder);
+  const auto shot = this->take();
+  ASSERT_TRUE(shot->Save(folder + "scene.json")) << shot->GetErrorMessage();
+  std::string faces;
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "models"))
+  {
+    std::ifstream file(entry.path());
+    for (std::string line; entry.path().extension() == ".obj" && std::getline(file, line);)
+    {
+      faces += line[0] == 'f' ? line + '\n' : "";
+    }
+  }
+  EXPECT_EQ(faces, "f 1/1/1 2/2/2 3/3/3\nf 1/1/1 3/3/3 4/4/4\nf 5//5 6//6 7//7\nf 5//5 7//7 8//8\n");
+  std::filesystem::remove_all(folder);
 }
 
 /// VTK turns a follower to its camera after the assembly has placed it.
