@@ -40,6 +40,16 @@ vtkSmartPointer<vtkUnsignedIntArray> zeros(std::int64_t count)
   return made;
 }
 
+std::string asLines(const std::vector<std::string>& all)
+{
+  std::string lines;
+  for (const std::string& line : all)
+  {
+    lines += line + '\n';
+  }
+  return lines;
+}
+
 void requireMemory(dgtkSnapshot& of, std::size_t bytesOfPixel)
 {
   dgtk::requireArrayMemory(
@@ -55,6 +65,7 @@ struct dgtkSnapshot::Internal
   std::vector<vtkSmartPointer<vtkUnsignedIntArray>> counts; // one a prop
   vtkSmartPointer<vtkDoubleArray> positions;
   vtkSmartPointer<vtkUnsignedCharArray> classes;
+  std::vector<std::string> changes;
   const dgtk::FrozenView& taken() const
   {
     if (!this->view.stage)
@@ -100,15 +111,7 @@ bool dgtkSnapshot::Take(vtkRenderer* renderer, int width, int height)
     });
 }
 
-std::string dgtkSnapshot::GetLeftOut() const
-{
-  std::string lines;
-  for (const std::string& line : this->Self->view.left)
-  {
-    lines += line + '\n';
-  }
-  return lines;
-}
+std::string dgtkSnapshot::GetLeftOut() const { return asLines(this->Self->view.left); }
 
 int dgtkSnapshot::GetNumberOfProps() const { return static_cast<int>(this->Self->view.actors.size()); }
 
@@ -257,5 +260,8 @@ vtkDataArray* dgtkSnapshot::GetClasses() const { return this->Self->classes; }
 
 bool dgtkSnapshot::Save(const std::string& path)
 {
-  return this->Attempt([&] { dgtk::saveSnapshot(this->Self->taken(), path); });
+  this->Self->changes.clear();
+  return this->Attempt([&] { this->Self->changes = dgtk::saveSnapshot(this->Self->taken(), path); });
 }
+
+std::string dgtkSnapshot::GetChanges() const { return asLines(this->Self->changes); }

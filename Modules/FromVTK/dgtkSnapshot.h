@@ -95,10 +95,14 @@ public:
   vtkDataArray* GetClasses() const;
   ///@}
 
+  ///@{
   /**
-   * Writes the snapshot as a scene (.json) with its models in a folder `models` beside it and its textures there.
+   * Writes the snapshot as a scene (.json) with its models in a folder `models` beside it and its textures there. What
+   * these files have otherwise is told by GetChanges(), one a line.
    */
   bool Save(const std::string& path);
+  std::string GetChanges() const;
+  ///@}
 
 protected:
   dgtkSnapshot();

@@ -4,9 +4,11 @@ import os
 import sys
 import tempfile
 import unittest
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 
 sys.path.insert(0, os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dist-packages"))
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -23,9 +25,15 @@ class Saved(unittest.TestCase):
         """The colours of a snapshot, and of what it is when it was written and read again."""
         shot = dgtk.snapshot(renderer, SIZE)
         with tempfile.TemporaryDirectory() as folder:
-            shot.save(folder + "/scene.json")
+            with warnings.catch_warnings(record=True) as self.said:
+                warnings.simplefilter("always")
+                shot.save(folder + "/scene.json")
             again = dgtk.render(dgtk.load(folder + "/scene.json"), "color", renderer="ray")
         return dgtk.render(shot, "color", renderer="ray").astype(int), again.astype(int)
+
+    def assert_said(self, lines):
+        self.assertEqual([str(one.message) for one in self.said], lines)
+        self.assertTrue(all(os.path.samefile(one.filename, __file__) for one in self.said))
 
     def test_scalars_beyond_their_range(self):
         renderer = scenes.contour()
@@ -35,6 +43,44 @@ class Saved(unittest.TestCase):
         shot, again = self.both(renderer)
         self.assertGreater((shot.max(-1) > 20).mean(), 0.1)
         self.assertLess(numpy.abs(shot - again).mean(), 1)
+        self.assert_said(["saved otherwise: actor-1: its texture coordinates are places in its map of colours"])
+        with tempfile.TemporaryDirectory() as folder, self.assertWarnsRegex(UserWarning, "map of colours") as said:
+            dgtk.generate(dgtk.snapshot(renderer, SIZE), folder, layers="depth")
+        self.assertTrue(os.path.samefile(said.filename, __file__))
+
+    def test_few_colours_keep_their_borders(self):
+        """Of five bands across the picture, only the pixels that a border passes through are mixed."""
+        wall = vtk.vtkPlaneSource()
+        wall.Update()
+        data = wall.GetOutput()
+        data.GetPointData().SetScalars(numpy_to_vtk(numpy.array([0.0, 1, 0, 1]), deep=1))
+        table = vtk.vtkLookupTable()
+        table.SetNumberOfTableValues(5)
+        table.SetRange(0, 1)
+        table.Build()
+        made = scenes.actor(data)
+        made.GetProperty().LightingOff()
+        made.GetMapper().InterpolateScalarsBeforeMappingOn()
+        made.GetMapper().SetLookupTable(table)
+        shot, again = self.both(scenes.renderer(made, eye=(0, 0, 2)))
+        seen = (shot != shot[0, 0]).any(-1).sum(0).max()
+        self.assertGreater(seen, 30)
+        self.assertLessEqual(((numpy.abs(shot - again) > 8).any(-1)).sum(), 4 * seen)
+
+    def test_a_texture_of_nearest_texels(self):
+        image = vtk.vtkImageData()
+        image.SetDimensions(2, 3, 1)
+        image.GetPointData().SetScalars(numpy_to_vtk(255 * (numpy.arange(6)[:, None] >> numpy.arange(3) & 1).astype(numpy.uint8), deep=1))
+        texture = vtk.vtkTexture()
+        texture.SetInputData(image)
+        made = scenes.actor(vtk.vtkPlaneSource())
+        made.SetTexture(texture)
+        made.GetProperty().LightingOff()
+        shot, again = self.both(scenes.renderer(made, eye=(0, 0, 2)))
+        seen = (shot != shot[0, 0]).any(-1).sum(0).max()
+        self.assertGreater(seen, 30)
+        self.assertLessEqual((numpy.abs(shot - again) > 8).any(-1).sum(), 5 * seen) # borders and rim
+        self.assert_said([])
 
     def test_what_cannot_be_seen(self):
         ball, cube = scenes.actor(vtk.vtkSphereSource()), scenes.actor(vtk.vtkCubeSource(), color=(0.9, 0.2, 0.1))

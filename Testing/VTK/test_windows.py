@@ -102,6 +102,20 @@ class Colours(unittest.TestCase):
                 renderer.AddLight(light)
                 self.compare(renderer)
 
+    def test_textures_of_one_row_or_layer(self):
+        texels = numpy.uint8([[250, 20, 20], [20, 250, 20], [20, 20, 250], [250, 250, 20]])
+        for sides in ((4, 1, 1), (1, 4, 1), (1, 1, 4), (1, 2, 2), (2, 1, 2), (2, 2, 1)):
+            with self.subTest(sides=sides):
+                image = vtk.vtkImageData()
+                image.SetDimensions(*sides)
+                image.GetPointData().SetScalars(numpy_to_vtk(texels, deep=1))
+                texture = vtk.vtkTexture()
+                texture.SetInputData(image)
+                made = scenes.actor(vtk.vtkPlaneSource())
+                made.SetTexture(texture)
+                made.GetProperty().LightingOff()
+                self.compare(scenes.renderer(made, eye=(0, 0, 2.2)), unlike=0.01)
+
     def test_a_texture_that_does_not_repeat(self):
         """Its border goes on: in its colours, and in its holes, which are exact ground truth."""
         texels = numpy.full((4, 4, 4), 255, numpy.uint8)

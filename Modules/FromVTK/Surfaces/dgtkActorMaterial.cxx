@@ -355,11 +355,14 @@ void toDisplay(Image& picture)
 std::shared_ptr<const Image> imageOf(vtkImageData& data)
 {
   vtkDataArray* const scalars = data.GetPointData()->GetScalars();
-  const int* const size = data.GetDimensions();
-  if (scalars == nullptr || scalars->GetDataType() != VTK_UNSIGNED_CHAR || size[0] < 1 || size[1] < 1 || size[2] != 1)
+  const int* const sides = data.GetDimensions();
+  if (scalars == nullptr || scalars->GetDataType() != VTK_UNSIGNED_CHAR || *std::min_element(sides, sides + 3) < 1 ||
+      *std::min_element(sides, sides + 3) > 1)
   {
     return nullptr;
   }
+  // VTK leaves out sides of 1, the first one first.
+  const int size[2] = { sides[sides[0] == 1 ? 1 : 0], sides[sides[0] == 1 || sides[1] == 1 ? 2 : 1] };
   const int components = scalars->GetNumberOfComponents();
   const int step = components >= 3 ? 1 : 0; // grey is R, G and B
   auto image = std::make_shared<Image>();

@@ -181,6 +181,11 @@ DrawnSurface glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported&
     unsupported.add(actor.name + ": vtkGlyph3DMapper of composite data");
     return {};
   }
+  if (glyphs.GetCullingAndLOD())
+  {
+    unsupported.add(actor.name + ": levels of detail of its glyphs");
+    return {};
+  }
   std::vector<SurfacePiece> pieces;
   for (int i = 0; i < glyphs.GetNumberOfInputConnections(1); ++i)
   {

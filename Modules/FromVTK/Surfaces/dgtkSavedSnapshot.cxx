@@ -47,20 +47,45 @@ void writePicture(const Image& image, const std::string& path)
   writer->finish();
 }
 
-/// A map of colours as a texture: filters that reduce it do not mix its rows, which are that high.
-Image asTexture(const Image& map)
+/// Texels as blocks of so many, for pictures whose nearest texel counts: files are filtered, which then shows at the
+/// blocks' borders only.
+Image inBlocks(const Image& from, int across, int down)
 {
-  constexpr int rowHeight = 64;
-  Image made = map;
-  made.height = rowHeight * map.height;
+  Image made = from;
+  made.width = across * from.width;
+  made.height = down * from.height;
   made.rgba.clear();
-  const std::ptrdiff_t rowBytes = 4 * std::ptrdiff_t(map.width);
+  made.rgba.reserve(4 * std::size_t(made.width) * std::size_t(made.height));
   for (int y = 0; y < made.height; ++y)
   {
-    const auto row = map.rgba.begin() + rowBytes * (y / rowHeight);
-    made.rgba.insert(made.rgba.end(), row, row + rowBytes);
+    const std::ptrdiff_t row = std::ptrdiff_t(y / down) * from.width;
+    for (int x = 0; x < made.width; ++x)
+    {
+      const auto texel = from.rgba.begin() + 4 * (row + x / across);
+      made.rgba.insert(made.rgba.end(), texel, texel + 4);
+    }
   }
   return made;
+}
+
+/// Blocks that make a side at most that long.
+int blocksOf(int side, int most) { return std::max(1, most / side); }
+
+/// A map of colours as a texture: filters that reduce it do not mix its rows.
+Image asTexture(const Image& map)
+{
+  constexpr int mostWidth = 1024;
+  constexpr int rowHeight = 256;
+  return inBlocks(map, blocksOf(map.width, mostWidth), rowHeight);
+}
+
+Image asFile(const Texture& texture)
+{
+  constexpr int mostSide = 1024;
+  const Image& image = *texture.image;
+  return texture.filter == TextureFilter::Nearest
+           ? inBlocks(image, blocksOf(image.width, mostSide), blocksOf(image.height, mostSide))
+           : image;
 }
 
 /// A place in it: in the middle of the row.
@@ -82,6 +107,9 @@ public:
   {
   }
 
+  /// Whether texture coordinates are places in the map of colours.
+  bool mapIsTexture() const { return this->MapIsTexture; }
+
   /// `ambientScale`: of the materials' ambient colours.
   void write(double ambientScale) const
   {
@@ -89,7 +117,7 @@ public:
     writeFile(FilePlace(this->Folder + '/' + this->Name + ".obj"), this->text());
     for (std::size_t i = 0; i < this->From.textures.size(); ++i)
     {
-      writePicture(*this->From.textures[i].image, this->Folder + '/' + this->picture(i));
+      writePicture(asFile(this->From.textures[i]), this->Folder + '/' + this->picture(i));
     }
     if (this->MapIsTexture)
     {
@@ -302,8 +330,9 @@ void addAmbientLight(SceneDescription& scene, double more)
 }
 } // namespace
 
-void saveSnapshot(const FrozenView& view, const std::string& path)
+std::vector<std::string> saveSnapshot(const FrozenView& view, const std::string& path)
 {
+  std::vector<std::string> changes;
   refuseBorders(view);
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const std::string models = (std::filesystem::path(folder) / modelFolder).string();
@@ -315,7 +344,13 @@ void saveSnapshot(const FrozenView& view, const std::string& path)
   {
     const FrozenActor& actor = view.actors[i];
     const std::shared_ptr<const Model> model = actor.whole->copies ? writtenOut(*actor.whole) : actor.model;
-    ObjFile(withScaledNormals(*model), models, actor.name).write(worldAmbient / ambient);
+    const Model written = withScaledNormals(*model);
+    const ObjFile file(written, models, actor.name);
+    file.write(worldAmbient / ambient);
+    if (file.mapIsTexture())
+    {
+      changes.push_back(actor.name + ": its texture coordinates are places in its map of colours");
+    }
     scene.objects[i].model = std::string(modelFolder) + '/' + actor.name + ".obj";
     scene.objects[i].materials = physicalMaterials(*model, actor.name);
   }
@@ -324,6 +359,7 @@ void saveSnapshot(const FrozenView& view, const std::string& path)
     addAmbientLight(scene, ambient - worldAmbient);
   }
   writeScene(scene, path);
+  return changes;
 }
 
 } // namespace dgtk

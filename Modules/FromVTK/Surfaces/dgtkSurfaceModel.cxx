@@ -165,7 +165,8 @@ private:
     this->Turn = normalMatrix(place.linear);
     // A triangle's own normal goes by the order of its corners, which a mirror turns. VTK turns the others by that
     // order.
-    if (this->Kind == Normals::OfTriangles ? place.linear.determinant() < 0 : this->Mirrored)
+    this->TurnOfTriangle = place.linear.determinant() < 0 ? Eigen::Matrix3d(-this->Turn) : this->Turn;
+    if (this->Mirrored)
     {
       this->Turn = -this->Turn;
     }
@@ -260,13 +261,10 @@ private:
       this->To.leftOut.push_back(std::uint32_t(this->To.cells.size() + this->To.leftOut.size()));
       return;
     }
-    const Eigen::Vector3d flat = this->Kind == Normals::OfTriangles
-                                   ? Eigen::Vector3d((p[1] - p[0]).cross(p[2] - p[0]).normalized())
-                                   : Eigen::Vector3d(0, 0, 0);
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i)
     {
-      corners[i] = this->vertex(points[i], p[i], flat);
+      corners[i] = this->vertex(points[i], p, i);
     }
     this->ToModel.triangles.push_back(corners);
     this->ToModel.unplaced.push_back(this->Uvs ? 0 : 1);
@@ -282,35 +280,47 @@ private:
 
   Eigen::Vector3d point(vtkIdType index) const { return this->Points.vector(index); }
 
-  std::uint32_t vertex(vtkIdType index, const Eigen::Vector3d& position, const Eigen::Vector3d& flat)
+  /// Of a triangle with these corners. Where the data have no direction for its normal, it has the triangle's, alone.
+  std::uint32_t vertex(vtkIdType index, const Eigen::Vector3d (&triangle)[3], std::size_t corner)
   {
     if (!this->Split && this->VertexOf[std::size_t(index)] != none)
     {
       return this->VertexOf[std::size_t(index)];
     }
     const auto made = std::uint32_t(this->ToGeometry.positions.size());
-    this->ToGeometry.positions.push_back(this->Place * position);
-    this->ToGeometry.normals.push_back(this->normal(index, flat));
+    Eigen::Vector3d normal = this->normalOfData(index);
+    const bool isOwn = direct(normal);
+    if (!isOwn)
+    {
+      normal = this->TurnOfTriangle * (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+      normal = direct(normal) ? normal : Eigen::Vector3d(0, 0, 1);
+    }
+    this->ToGeometry.positions.push_back(this->Place * triangle[corner]);
+    this->ToGeometry.normals.emplace_back(normal.cast<float>());
     this->ToModel.sourceVertex.push_back(made);
     this->addLooks(index);
-    if (!this->Split)
+    if (!this->Split && isOwn)
     {
       this->VertexOf[std::size_t(index)] = made;
     }
     return made;
   }
 
-  Eigen::Vector3f normal(vtkIdType index, const Eigen::Vector3d& flat) const
+  /// 0 where there are none.
+  Eigen::Vector3d normalOfData(vtkIdType index) const
   {
-    Eigen::Vector3d n = flat;
-    if (this->Kind != Normals::OfTriangles)
-    {
-      const bool ofPoint = this->Kind == Normals::OfPoints;
-      n = (ofPoint ? this->PointNormals : this->CellNormals).vector(ofPoint ? index : this->Cell);
-    }
-    n = (this->Turn * n).eval();
-    const double size = n.norm();
-    return size > 0 && std::isfinite(size) ? Eigen::Vector3f((n / size).cast<float>()) : Eigen::Vector3f(0, 0, 1);
+    const bool ofPoint = this->Kind == Normals::OfPoints;
+    return this->Kind == Normals::OfTriangles
+             ? Eigen::Vector3d(0, 0, 0)
+             : this->Turn * (ofPoint ? this->PointNormals : this->CellNormals).vector(ofPoint ? index : this->Cell);
+  }
+
+  /// Makes it a direction; false where it has none.
+  static bool direct(Eigen::Vector3d& normal)
+  {
+    const double size = normal.norm();
+    normal /= size;
+    return size > 0 && std::isfinite(size);
   }
 
   void addLooks(vtkIdType index)
@@ -383,7 +393,8 @@ private:
   Normals Kind = Normals::OfTriangles;
   bool Split = true; ///< every triangle has vertices of its own
   Affine3 Place;
-  Eigen::Matrix3d Turn = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d Turn = Eigen::Matrix3d::Identity(); ///< of the data's normals
+  Eigen::Matrix3d TurnOfTriangle = Eigen::Matrix3d::Identity();
   const GlyphPlace* Glyph = nullptr;
   vtkIdType Cell = 0;
   std::uint64_t Work = 0;

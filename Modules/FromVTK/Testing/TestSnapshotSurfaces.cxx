@@ -11,7 +11,9 @@
 #include <vtkCompositePolyDataMapper2.h>
 #include <vtkDataSetMapper.h>
 #include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
 #include <vtkFollower.h>
+#include <vtkGlyph3DMapper.h>
 #include <vtkImageData.h>
 #include <vtkLookupTable.h>
 #include <vtkMultiBlockDataSet.h>
@@ -145,6 +147,55 @@ TEST_F(Snapshots, GiveABlockWithoutScalarsTheColourOfNoNumber)
     const Eigen::Vector3d expected = missing ? Eigen::Vector3d(0.2, 0.4, 0.6) : Eigen::Vector3d(1, 1, 1);
     EXPECT_LT((materials[1].diffuse - expected).norm(), 1e-9);
   }
+}
+
+/// Of two triangles that share a corner whose normal has no direction each has its own normal there.
+TEST_F(Snapshots, GiveTrianglesTheirNormalWhereThatOfAPointHasNoDirection)
+{
+  constexpr double noNumber = std::numeric_limits<double>::quiet_NaN();
+  for (const double x : { 0.0, noNumber })
+  {
+    const auto data = polygon({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } });
+    data->GetPoints()->SetPoint(1, 1, 0, -1);
+    data->GetPoints()->SetPoint(3, 0, 1, -1);
+    vtkNew<vtkFloatArray> normals;
+    normals->SetNumberOfComponents(3);
+    for (int i = 0; i < 4; ++i)
+    {
+      normals->InsertNextTuple3(i == 0 ? x : 0, i == 1 ? 3 : 0, i >= 2 ? 2 : 0);
+    }
+    data->GetPointData()->SetNormals(normals);
+    const auto actor = this->add(data);
+    const auto state = this->take()->GetStage()->at(0);
+    const dgtk::Model& model = *state->instances.at(0).model;
+    ASSERT_EQ(model.triangles.size(), 2u);
+    ASSERT_EQ(model.rest->positions.size(), 5u);
+    for (const auto& corners : model.triangles)
+    {
+      const auto& p = model.rest->positions;
+      const Eigen::Vector3d own = (p[corners[1]] - p[corners[0]]).cross(p[corners[2]] - p[corners[0]]).normalized();
+      for (const std::uint32_t corner : corners)
+      {
+        const Eigen::Vector3d place = p[corner];
+        const Eigen::Vector3d expected = place.head<2>().isZero()         ? own
+                                         : place.z() < 0 && place.x() > 0 ? Eigen::Vector3d(0, 1, 0)
+                                                                          : Eigen::Vector3d(0, 0, 1);
+        EXPECT_LT((model.rest->normals[corner].cast<double>() - expected).norm(), 1e-6) << corner;
+      }
+    }
+    this->Renderer->RemoveActor(actor);
+  }
+}
+
+TEST_F(Snapshots, RefuseLevelsOfDetailOfGlyphs)
+{
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(square(0, 0));
+  mapper->SetSourceData(square(0, 0));
+  this->add(mapper.Get());
+  this->take();
+  mapper->SetCullingAndLOD(true);
+  this->refuses("actor-1: levels of detail of its glyphs");
 }
 
 /// What has no texture coordinates is told from what has (0, 0), also after clipping and in a scene that is saved.

@@ -2,6 +2,7 @@
 #include "dgtkRendererCamera.h"
 
 #include "dgtkError.h"
+#include "dgtkText.h"
 
 #include <Eigen/Geometry>
 #include <vtkCamera.h>
@@ -56,10 +57,11 @@ public:
     this->Perspective ? this->perspective(x, y, w) : this->parallel(x / w[3], y / w[3], clip.row(2) / w[3]);
     this->Near = this->depthOf(w + clip.row(2));
     this->Far = this->depthOf(w - clip.row(2));
-    if (!this->K.allFinite() || !this->Position.allFinite() || !this->CameraFromWorld.allFinite())
-    {
-      fail("has matrices that cannot be taken apart");
-    }
+  }
+
+  bool isUsable() const
+  {
+    return this->K.allFinite() && this->Position.allFinite() && this->CameraFromWorld.allFinite();
   }
 
   bool Perspective = true;
@@ -129,6 +131,31 @@ private:
   }
 };
 
+[[noreturn]] void failUnusable(vtkCamera& camera)
+{
+  const auto vectorOf = [](const double* v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
+  const Eigen::Vector3d position = vectorOf(camera.GetPosition());
+  const Eigen::Vector3d ahead = vectorOf(camera.GetFocalPoint()) - position;
+  const Eigen::Vector3d up = vectorOf(camera.GetViewUp());
+  if (!ahead.allFinite() || !up.allFinite())
+  {
+    fail("has a position, a focal point or a view up that is no number");
+  }
+  if (ahead.isZero(0))
+  {
+    fail("stands in its focal point");
+  }
+  if (ahead.normalized().cross(up.normalized()).norm() < leaning)
+  {
+    fail("looks along its view up");
+  }
+  if (camera.GetParallelProjection() != 0 && !(camera.GetParallelScale() > 0))
+  {
+    fail("has a parallel scale of " + shortest(camera.GetParallelScale()));
+  }
+  fail("has matrices that cannot be taken apart");
+}
+
 /// A camera that sees all props, as the renderer makes one when it draws for the first time.
 vtkSmartPointer<vtkCamera> overview(vtkRenderer& renderer, double aspect)
 {
@@ -186,6 +213,10 @@ RendererCamera rendererCamera(vtkRenderer& renderer, int width, int height)
   const Eigen::Matrix4d clip = matrixOf(*view.camera->GetProjectionTransformMatrix(aspect, -1, 1)) * viewFromWorld;
   const Eigen::Vector4d eye = viewFromWorld.inverse().col(3);
   const Decomposition parts(clip, width, height, eye.head<3>() / eye[3]);
+  if (!parts.isUsable())
+  {
+    failUnusable(*view.camera);
+  }
   CameraDescription& camera = view.description;
   camera.name = "camera";
   camera.model = parts.Perspective ? "pinhole" : "orthographic";

@@ -9,6 +9,8 @@
 #include <vtkPropCollection.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace dgtk
@@ -32,6 +34,11 @@ bool isAffine(const vtkMatrix4x4& matrix)
 {
   return matrix.GetElement(3, 0) == 0 && matrix.GetElement(3, 1) == 0 && matrix.GetElement(3, 2) == 0 &&
          matrix.GetElement(3, 3) != 0;
+}
+
+bool isFinite(const vtkMatrix4x4& matrix)
+{
+  return std::all_of(*matrix.Element, *matrix.Element + 16, [](double v) { return std::isfinite(v); });
 }
 
 Affine3 affineOf(const vtkMatrix4x4* matrix)
@@ -92,7 +99,8 @@ private:
     }
     if (matrix != nullptr && !isAffine(*matrix))
     {
-      this->Out.add(numbered(classOf(leaf), this->Props) + " with a projective matrix");
+      this->Out.add(numbered(classOf(leaf), this->Props) +
+                    (isFinite(*matrix) ? " with a projective matrix" : " with a matrix that is no numbers"));
       return;
     }
     if (isPart && leaf.IsA("vtkFollower") != 0)

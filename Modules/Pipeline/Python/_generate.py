@@ -6,6 +6,7 @@ import tempfile
 
 from . import _check
 from ._render import require_scene, with_options
+from ._vtk import write_files
 from .dgtkFromVTK import dgtkSnapshot
 from .dgtkPipeline import dgtkDatasetGenerator
 
@@ -28,11 +29,17 @@ def frames_of(value):
 
 def wait_for(generator, progress):
     """Waits for the end; whatever is raised meanwhile ends the run, and is raised on."""
+    told = None
     try:
         generator.Start()
         while generator.IsRunning():
             if generator.Wait(_PATIENCE) and progress is not None:
-                progress(generator.GetDone(), generator.GetTotal())
+                done, total = generator.GetDone(), generator.GetTotal()
+                if told is None and done > 0:
+                    progress(0, total)
+                if told != (done, total):
+                    told = done, total
+                    progress(done, total)
     except BaseException:
         generator.Cancel()
         while generator.IsRunning():
@@ -52,8 +59,7 @@ def _generate_packed(shot, folder, *arguments, pack=True, **options):
         raise RuntimeError(f"scene: no folder for the files of the snapshot: {error.strerror}") from None
     with folder_of_files as saved:
         file = os.path.join(saved, "scene.json")
-        if not shot.Save(os.fsencode(file)):
-            _check.raise_error(shot)
+        write_files(shot, os.fsencode(file), 4)
         return generate(file, folder, *arguments, pack=True, **options)
 
 
@@ -67,7 +73,7 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     scenes then, and the manifest names the datasets. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
     integer, (first, last) or (first, last, step), both ends included, or a range; default: all. cameras: a name or a list of names;
     default: all. size: (width, height) in pixels; default: each camera's own, else 640 x 480. progress: called in this
-    thread as progress(done, total), pictures (one camera at one frame), at the start, after each and at the end.
+    thread as progress(done, total), pictures (one camera at one frame): with 0, as they are done, and with all.
     resume: complete an interrupted run of the same request. replace: remove the dataset of another request, or an
     interrupted run, that the folder holds; not with resume. formats: a name or a list of names of exports, whose layers and
     options are added; without layers they are all there are. classes: the path of a file of the numbers of the classes,

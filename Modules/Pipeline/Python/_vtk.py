@@ -19,10 +19,21 @@ class Snapshot(dgtkSnapshot):
     """What a VTK view showed, frozen; see snapshot()."""
 
     def save(self, path):
-        """Writes the snapshot as a .json scene, with its models as OBJ and their textures in a folder `models` beside it."""
-        with turn(self):
-            if not self.Save(_check.path("path", path)):
-                _check.raise_error(self)
+        """Writes the snapshot as a .json scene, with its models as OBJ and their textures in a folder `models` beside it.
+
+        Warns of what these files have otherwise.
+        """
+        write_files(self, _check.path("path", path), 3)
+
+
+def write_files(shot, path, level):
+    """Saves a snapshot, and warns of what the files have otherwise, where the caller that many levels above is."""
+    with turn(shot):
+        if not shot.Save(path):
+            _check.raise_error(shot)
+        changes = shot.GetChanges().splitlines()
+    for line in changes:
+        warnings.warn(f"saved otherwise: {line}", stacklevel=level)
 
 
 def _renderer_of_window(window):
@@ -43,6 +54,10 @@ def _renderer(view):
             return found
         if isinstance(found, vtkcore.vtkRenderWindow):
             return _renderer_of_window(found)
+        if isinstance(found, vtkcore.vtkRenderWindowInteractor):
+            found = found.GetRenderWindow()
+            if found is not None:
+                return _renderer_of_window(found)
         if found is None or id(found) in seen or isinstance(found, (str, bytes, int, float, list, tuple, dict)):
             continue
         seen.add(id(found))
@@ -52,7 +67,7 @@ def _renderer(view):
             except Exception:  # properties of strangers may fail
                 continue
     raise ValueError(f"view: no vtkRenderer in {type(view).__name__} (expected a vtkRenderer, a vtkRenderWindow, or an object that has one "
-                     f"as {', '.join(_HOLDERS)})")
+                     f"as {', '.join(_HOLDERS + _CONTAINERS)})")
 
 
 def snapshot(view, size=None, unsupported="refuse"):
@@ -65,6 +80,10 @@ def snapshot(view, size=None, unsupported="refuse"):
 
     Returns a Snapshot, which render() takes as a scene. Its save("scene.json") writes it with its models, for generate().
     """
+    return _snapshot(view, size, unsupported, 3)
+
+
+def _snapshot(view, size, unsupported, level):
     if not isinstance(unsupported, str) or unsupported not in ("refuse", "skip"):
         _check.fail("unsupported", "refuse or skip", unsupported)
     width, height = _check.size(size)
@@ -73,7 +92,7 @@ def snapshot(view, size=None, unsupported="refuse"):
     if not made.Take(_renderer(view), width, height):
         _check.raise_error(made)
     for line in made.GetLeftOut().splitlines():
-        warnings.warn(f"left out: {line}", stacklevel=3)
+        warnings.warn(f"left out: {line}", stacklevel=level)
     return made
 
 
@@ -125,7 +144,7 @@ def truth(view, layers, size=None, unsupported="refuse", **options):
     others = [name for name in names if name != "cells"]
     for name, value in () if others else options.items():
         _check.fail(name, "no option of render() beside cells alone", value)
-    shot = view if _is_snapshot(view, size, unsupported) else snapshot(view, size, unsupported)
+    shot = view if _is_snapshot(view, size, unsupported) else _snapshot(view, size, unsupported, 3)
     outputs = Truth(shot)
     if others:
         outputs.update(render(shot, others, **options))
@@ -156,7 +175,7 @@ def visible_cells(view, size=None, unsupported="refuse"):
 
     view, size and unsupported as in truth().
     """
-    shot = view if _is_snapshot(view, size, unsupported) else snapshot(view, size, unsupported)
+    shot = view if _is_snapshot(view, size, unsupported) else _snapshot(view, size, unsupported, 3)
     with turn(shot):
         if not shot.CountCells():
             _check.raise_error(shot)
