@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dgtk
 {
@@ -18,6 +19,7 @@ constexpr double widestCone = 1.4;     // radians; cones near a half space bound
 constexpr double coneSlack = 1e-9;     // radians
 constexpr double placeSlack = 1e-9;    // cells: neighbours leave no gap
 constexpr double settledTable = 1e-14; // cells
+constexpr double nearlySettled = 1e-6; // cells: steps that do not shrink from there on are roundings
 constexpr double farthestPlace = 8.0;  // cells: from there Newton's method does not come back
 constexpr int mostTableSteps = 20;
 
@@ -153,6 +155,7 @@ bool RayTable::Cell::find(const Eigen::Vector3d& x, Eigen::Vector2d& place) cons
   const Eigen::Vector3d e1 = axis.unitOrthogonal();
   const Eigen::Vector3d e2 = axis.cross(e1);
   Eigen::Vector2d found(0.5, 0.5);
+  double last = std::numeric_limits<double>::infinity();
   for (int steps = 0; steps < mostTableSteps; ++steps)
   {
     const double a = found.x();
@@ -180,7 +183,10 @@ bool RayTable::Cell::find(const Eigen::Vector3d& x, Eigen::Vector2d& place) cons
     {
       return false;
     }
-    if (step.cwiseAbs().maxCoeff() <= settledTable)
+    const double size = step.cwiseAbs().maxCoeff();
+    const bool isRounding = size <= nearlySettled && size >= last / 2;
+    last = size;
+    if (size <= settledTable || isRounding)
     {
       place = found.cwiseMax(this->least).cwiseMin(this->most);
       return (place - found).cwiseAbs().maxCoeff() <= placeSlack && way.dot(ray.direction) > 0;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <random>
 
 using namespace dgtk;
 using testing::HasSubstr;
@@ -256,6 +257,40 @@ TEST_F(RayTables, FindPointsJustBeforeTheirOrigins)
     ASSERT_TRUE(camera->project({ at.x(), at.y(), 1e-3 }, pixel)) << at.transpose();
     ASSERT_LE((pixel - at - Eigen::Vector2d(0.5, 0.5)).norm(), 1e-9);
     ASSERT_FALSE(camera->project({ at.x(), at.y(), -1e-3 }, pixel)) << "behind";
+  }
+}
+
+/// Of a fine table directions differ so little from pixel to pixel that their roundings are more than 1e-14 pixels.
+TEST_F(RayTables, FindEveryPointOfAFineImage)
+{
+  constexpr int width = 640;
+  constexpr int height = 48;
+  for (const int channels : { 3, 6 })
+  {
+    std::vector<double> numbers;
+    for (int i = 0; i < width * height; ++i)
+    {
+      const double x = (i % width + 0.5 - 310) / 575;
+      const double y = (i / width + 0.5 - 21) / 570; // NOLINT: of the row
+      if (channels == 6)
+      {
+        numbers.insert(numbers.end(), { x / 100, y / 100, 0.1 });
+      }
+      numbers.insert(numbers.end(), { x, y, 1.0 });
+    }
+    this->write(height, width, channels, numbers);
+    const auto camera = this->camera(width, height);
+    std::mt19937_64 random(3);
+    const auto between = [&random](double from, double to)
+    { return std::uniform_real_distribution<double>(from, to)(random); };
+    for (int i = 0; i < 3000; ++i)
+    {
+      const Eigen::Vector2d expected(between(0, width), between(0, height));
+      const CameraRay ray = camera->rayThrough(expected);
+      Eigen::Vector2d pixel;
+      ASSERT_TRUE(camera->project(ray.origin + between(0.5, 20) * ray.direction, pixel)) << expected.transpose();
+      EXPECT_LE((pixel - expected).norm(), 1e-8) << expected.transpose();
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include "dgtkSceneState.h"
 #include "dgtkStage.h"
 
+#include <Eigen/Geometry>
 #include <vtkAssembly.h>
 #include <vtkCellArray.h>
 #include <vtkCellTypeSource.h>

@@ -22,8 +22,9 @@ namespace
 {
 constexpr int usualSide = 300; ///< of VTK's windows
 constexpr double leaning = 1e-9;
-constexpr double margin = 1e-3;    ///< of near and far around what there is
-constexpr double leastNear = 1e-6; ///< of far
+constexpr double margin = 1e-3;         ///< of near and far around what there is
+constexpr double leastNear = 1e-6;      ///< of far
+constexpr double leastDistance = 1e-20; ///< VTK's own
 
 using Row = Eigen::RowVector4d;
 
@@ -141,7 +142,7 @@ private:
   {
     fail("has a position, a focal point or a view up that is no number");
   }
-  if (ahead.isZero(0))
+  if (camera.GetDistance() <= leastDistance)
   {
     fail("stands in its focal point");
   }
