@@ -38,8 +38,11 @@ void setLimit(CompareTolerance& tolerance, const std::string& text, const std::s
   const std::string number = equals == std::string::npos ? "" : part.substr(equals + 1);
   double value = -1;
   const auto [end, code] = std::from_chars(number.data(), number.data() + number.size(), value);
-  const bool twice = text.find(key + '=') != text.rfind(key + '=');
-  if (twice || code != std::errc() || end != number.data() + number.size() || !std::isfinite(value) || value < 0)
+  if (text.find(key + '=') != text.rfind(key + '='))
+  {
+    throw UsageError(std::string(toleranceOption) + ": " + key + " twice in " + quoted(text));
+  }
+  if (code != std::errc() || end != number.data() + number.size() || !std::isfinite(value) || value < 0)
   {
     badTolerance(text, part);
   }

@@ -26,10 +26,7 @@ void requireDataset(const std::string& folder)
   {
     return;
   }
-  if (std::filesystem::is_directory(folder, code) && folderContents(folder, "") == FolderContents::UnfinishedOther)
-  {
-    throw InputError(folder, "holds an unfinished run: the same dgtk render command with --resume completes it");
-  }
+  requireFinished(folder);
   throw InputError(folder, "is not a dataset", "a folder with manifest.json");
 }
 

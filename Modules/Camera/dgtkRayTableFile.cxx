@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkText.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -117,6 +118,10 @@ std::vector<CameraRay> raysOf(
   if (!timed)
   {
     times.clear();
+  }
+  if (std::none_of(rays.begin(), rays.end(), [](const CameraRay& ray) { return ray.exists(); }))
+  {
+    fail(path, "directions that are all 0 or no number");
   }
   return rays;
 }

@@ -4,6 +4,7 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkFolder.h"
+#include "dgtkFolderContents.h"
 #include "dgtkInputFile.h"
 #include "dgtkJournal.h"
 #include "dgtkJsonText.h"
@@ -138,6 +139,7 @@ void comparePixels(const std::string& a, const std::string& b, CompareResult& re
 /// The files of a dataset by its manifest, else those below the folder.
 std::set<std::string> filesOf(const std::string& folder)
 {
+  requireFinished(folder);
   std::set<std::string> names;
   std::error_code code;
   const fs::path manifest = fs::path(folder) / manifestName;
@@ -200,6 +202,13 @@ std::vector<std::string> manifestDifferences(const std::string& a, const std::st
   return names;
 }
 
+/// Whether there are ids or classes among the values: of tracks in a column, of coverage beside each share.
+bool hasNames(const LayerSpec& spec)
+{
+  const bool ranks = spec.meaning == Meaning::Coverage && spec.channels > 1;
+  return ranks || spec.unit == "id" || spec.unit.find("class") != std::string::npos;
+}
+
 /// The layers of a dataset's files; refuses tolerances that would say nothing about them.
 std::map<std::string, std::string> layersOf(
   const std::string& folder, const std::map<std::string, CompareTolerance>& tolerances)
@@ -234,11 +243,12 @@ std::map<std::string, std::string> layersOf(
       throw UsageError("a tolerance for " + layer + ": its files are no images");
     }
     const auto names = [&name = layer](const LayerRecord& record)
-    { return record.spec.name == name && (record.spec.unit == "id" || record.spec.unit == "class"); };
+    { return record.spec.name == name && hasNames(record.spec); };
     if (tolerance.value > 0 && std::any_of(manifest.layers.begin(), manifest.layers.end(), names))
     {
       throw UsageError("a tolerance for " + layer +
-                       ": its values are names, none is nearer than another (expected pixels " + "or a share)");
+                       ": its values are names, or some of them, none is nearer than another (expected pixels or a "
+                       "share)");
     }
   }
   return layers;

@@ -42,10 +42,7 @@ std::vector<std::string> scenesIn(const std::string& path)
 
 [[noreturn]] void refuse(const std::string& folder)
 {
-  if (fs::is_directory(folder) && folderContents(folder, "") == FolderContents::UnfinishedOther)
-  {
-    throw InputError(folder, "holds an unfinished run: render it to its end");
-  }
+  requireFinished(folder);
   throw InputError(folder, "is not a dataset", "a folder with manifest.json, or with folders that have one");
 }
 } // namespace

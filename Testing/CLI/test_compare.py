@@ -77,6 +77,15 @@ class Tolerances(Case):
         self.compare("objects:share=0.009", status=1)
         self.refused("compare", self.one, self.other, "--tolerance", "objects:value=1", status=2, says="values are names")
 
+    def test_names_beside_numbers_have_a_share(self):
+        made = self.path("made")
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", made, "--quiet", "--layers", "coverage,tracks", "--size", "8x6",
+                  "--frames", "0:1", "--cameras", "left")
+        for layer in ("coverage", "tracks"):
+            self.dgtk("compare", made, made, "--tolerance", f"{layer}:share=0.01")
+            self.refused("compare", made, made, "--tolerance", f"{layer}:value=0.1", status=2, says="its values are names, or some of them")
+        self.refused("compare", made, made, "--tolerance", "tracks:share=1,share=.5", status=2, says="--tolerance: share twice in ")
+
     def test_json(self):
         self.change("color", 10, 3)
         document = json.loads(self.compare("color:value=3", json_too=True))
@@ -119,8 +128,7 @@ class Tolerances(Case):
 
     def test_wrong_usage(self):
         for wrong in ("color", "color:", "color:2", "color:value", "color:value=", "color:value=-1", "color:value=nan", "color:share=1.1",
-                      "color:pixels=0.5", "color:value=1,", "color:values=1", "color:value=1 ",
-                      "color:value=1,value=2"):
+                      "color:pixels=0.5", "color:value=1,", "color:values=1", "color:value=1 "):
             self.refused("compare", self.one, self.other, "--tolerance", wrong, status=2, says="expected [LAYER:]value=V,pixels=N,share=S")
         self.refused("compare", self.one, self.other, "--tolerance", "colour:value=1", status=2,
                      says=["'colour'", "it has color, depth, objects"])

@@ -55,6 +55,8 @@ class Shards(ManyCase):
         self.shard(DEMO, self.path("parts"), order[-1], 8)
         lost = os.path.join(self.path("parts"), ".dgtk-parts", "000002")
         shutil.rmtree(lost)
+        for command in (["verify"], ["info"], ["compare", self.path("parts")], ["report", "-o", self.path("report")]):
+            self.refused(*command, self.path("parts"), status=3, says="parts: holds a run in parts: dgtk merge makes the dataset")
         report = json.loads(self.dgtk("merge", self.path("parts"), "--json", status=1).stdout)
         self.assertEqual((report["merged"], report["missing"], report["array"], report["shares"]), (False, [2], "0", {"8": "2"}))
         self.assertFalse(os.path.exists(self.path("parts", "manifest.json")))

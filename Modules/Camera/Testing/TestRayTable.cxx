@@ -306,6 +306,11 @@ TEST_F(RayTables, RefuseWhatIsNone)
   EXPECT_THAT(this->refusal(), HasSubstr("height x width x 3 (directions) or x 6"));
   this->write(1, 12, 3, this->plane());
   EXPECT_THAT(this->refusal(), HasSubstr("2 x 2 at least"));
+  for (const double none : { 0.0, notANumber })
+  {
+    this->write(3, 4, 3, std::vector<double>(36, none));
+    EXPECT_THAT(this->refusal(), HasSubstr("found directions that are all 0 or no number"));
+  }
   std::vector<double> timed(48, 1);
   timed[3] = 1e4;
   this->write(3, 4, 4, timed);

@@ -101,6 +101,23 @@ bool canBeRead(const Read& read)
 }
 } // namespace
 
+void requireFinished(const std::string& folder)
+{
+  std::error_code code;
+  if (!fs::is_directory(folder, code) || fs::exists(fs::path(folder) / manifestName, code))
+  {
+    return;
+  }
+  if (holdsParts(folder))
+  {
+    throw InputError(folder, "holds a run in parts: dgtk merge makes the dataset of them when they are all there");
+  }
+  if (folderContents(folder, "") == FolderContents::UnfinishedOther)
+  {
+    throw InputError(folder, "holds an unfinished run: the same dgtk render command with --resume completes it");
+  }
+}
+
 void requireOutsideDatasets(const std::string& path)
 {
   std::error_code code;

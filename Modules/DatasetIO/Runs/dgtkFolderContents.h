@@ -31,6 +31,10 @@ DGTKDATASETIO_EXPORT FolderContents folderContents(const std::string& folder, co
 /// The end of a sentence that begins with a folder's name: "holds an unfinished run of the same request".
 DGTKDATASETIO_EXPORT std::string describe(FolderContents contents);
 
+/// Throws InputError, which names the command that completes it, where a folder holds a run that is not finished, or in
+/// parts that are not merged.
+DGTKDATASETIO_EXPORT void requireFinished(const std::string& folder);
+
 /// Throws UsageError where a file or folder to be written is below the folder of a dataset, which is no sound one with
 /// a file that its manifest does not list, and where it is the manifest of a folder of datasets. The path need not be
 /// there.

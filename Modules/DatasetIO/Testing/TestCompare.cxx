@@ -269,7 +269,10 @@ TEST(Compare, TolerancesAreOfLayersThatTheDatasetHas)
   EXPECT_EQ(refusal("boxes", { 0, 3, {} }), "a tolerance for boxes: its files are no images");
   EXPECT_EQ(refusal("ldi", { 1, {}, {} }), "a tolerance for ldi: its files are no images");
   EXPECT_EQ(refusal("color", { 1, {}, {} }), "") << "its only picture is missing";
-  manifest.layers[0].spec.unit = "class";
-  writeFile(folder.path("manifest.json"), manifestText(manifest));
-  EXPECT_THAT(refusal("objects", { 1, {}, {} }), HasSubstr("its values are names"));
+  for (const char* unit : { "class", "pixels, class" })
+  {
+    manifest.layers[0].spec.unit = unit;
+    writeFile(folder.path("manifest.json"), manifestText(manifest));
+    EXPECT_THAT(refusal("objects", { 1, {}, {} }), HasSubstr("its values are names"));
+  }
 }
