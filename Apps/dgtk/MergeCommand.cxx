@@ -48,7 +48,7 @@ int runMerge(const Arguments& arguments)
   const std::filesystem::file_status status = std::filesystem::status(folder, code);
   if (std::filesystem::status_known(status) && !std::filesystem::is_directory(status))
   {
-    throw UsageError(folder + (std::filesystem::exists(status) ? ": is no folder" : ": does not exist"));
+    throw InputError(folder, std::filesystem::exists(status) ? "is no folder" : "does not exist");
   }
   const bool exported = hasParts(folder) && !readParts(folder).exporter.empty();
   const MergeReport report = exported ? mergeExport(folder) : mergeParts(folder, machineThreads());

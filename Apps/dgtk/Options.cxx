@@ -149,7 +149,15 @@ void Arguments::size(const std::string& name, int most, int& width, int& height)
   height = parseInteger(text.substr(x + 1), name + " height", 1, most);
 }
 
-std::vector<std::string> Arguments::list(const std::string& name) const { return splitNames(this->text(name), name); }
+std::vector<std::string> Arguments::list(const std::string& name) const
+{
+  const std::string text = this->text(name);
+  if (text.empty() && this->has(name)) // a variable that is not set must not mean all
+  {
+    throw UsageError(name + ": expected names, found ''");
+  }
+  return splitNames(text, name);
+}
 
 std::vector<Option> shownOptions(const Command& command)
 {

@@ -71,10 +71,6 @@ GeneratorRequest parseRenderRequest(const Arguments& arguments)
   if (arguments.has("--layers")) // otherwise the usual ones, as far as the scene's cameras can have them
   {
     request.layers = arguments.list("--layers");
-    if (request.layers.empty())
-    {
-      throw UsageError("--layers: expected names of layers, found ''");
-    }
   }
   request.cameras = arguments.list("--cameras");
   if (arguments.has("--frames"))
@@ -182,8 +178,9 @@ int render(const Arguments& arguments)
   }
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.1f s", progress.seconds());
-  progress.message(std::to_string(result.pictures) + " pictures, " + std::to_string(result.files) + " files in " +
-                   request.folder + ", " + seconds);
+  progress.message(std::to_string(result.pictures) + (result.pictures == 1 ? " picture, " : " pictures, ") +
+                   std::to_string(result.files) + (result.files == 1 ? " file in " : " files in ") + request.folder +
+                   ", " + seconds);
   if (arguments.has("--timings"))
   {
     printTimings(progress.seconds());

@@ -49,7 +49,8 @@ class Usage(ManyCase):
         self.refused("render", SCENE, "-o", self.path("x"), "--size", "0x10", status=2, says="--size width")
         self.refused("render", SCENE, "-o", self.path("x"), "--samples", "17", status=2, says="1 to 16")
         self.refused("render", SCENE, "-o", self.path("x"), "--layers", "depht", status=2, says="unknown layer 'depht'")
-        self.refused("render", SCENE, "-o", self.path("x"), "--layers", "", status=2, says="--layers: expected names of layers")
+        for option in ("--layers", "--cameras", "--for"):
+            self.refused("render", SCENE, "-o", self.path("x"), option, "", status=2, says=f"{option}: expected names, found ''")
         self.refused("render", SCENE, "-o", self.path("x"), "--cameras", "nobody", status=2, says="no camera 'nobody'")
         self.refused("render", SCENE, "-o", self.path("x"), "--frames", "3:1", status=2, says="A <= B")
         self.refused("render", SCENE, "-o", self.path("x"), "--frames", "0:100000", status=2, says="the scene has frames")
@@ -59,8 +60,8 @@ class Usage(ManyCase):
         self.refused("info", self.path("nothing"), status=3, says="nothing: cannot be read: No such file or directory")
         self.refused("export", self.path("x"), "-o", self.path("y"), status=2, says="export needs a format")
         self.refused("list", "nothing", status=2, says="expected one of readers")
-        self.refused("merge", self.path("nothing"), status=2, says="nothing: does not exist")
-        self.refused("merge", SCENE, status=2, says="demo.json: is no folder")
+        self.refused("merge", self.path("nothing"), status=3, says="nothing: does not exist")
+        self.refused("merge", SCENE, status=3, says="demo.json: is no folder")
         self.assertFalse(os.path.exists(self.path("x")))
 
     def test_nothing_is_written_into_a_dataset(self):

@@ -230,8 +230,12 @@ std::vector<Pair> pairsOf(
     pair.text = text;
     if (!parsePair(names, pair))
     {
+      const std::size_t colon = text.find(':');
+      const std::string from = text.substr(0, colon);
+      const bool known = std::find(names.begin(), names.end(), from) != names.end();
       throw UsageError(
-        "pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " + quoted(text));
+        "pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " + quoted(text) +
+        (colon == std::string::npos ? "" : ": there is no camera " + quoted(known ? text.substr(colon + 1) : from)));
     }
     if (pair.from == pair.to && pair.offset == 0)
     {
