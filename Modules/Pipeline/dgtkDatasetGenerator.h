@@ -27,8 +27,8 @@ public:
   ///@{
   /**
    * What is rendered: a .scene or .json file, a folder of them, or a loaded scene. One that was loaded from a file is
-   * read again, with its models, and must not have changed since. Of a folder, each scene becomes a dataset in a folder
-   * of its name.
+   * read again, with its models as they are now; the file must not have changed. Of a folder, each scene becomes a
+   * dataset in a folder of its name.
    */
   void SetSceneFile(const std::string& path);
   void SetScene(dgtkScene* scene);

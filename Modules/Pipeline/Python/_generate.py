@@ -67,8 +67,8 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     """Writes a dataset: what `dgtk render` does, to the byte.
 
     scene: the path of a .json or .scene file, or of a folder of them, a Scene, or a Snapshot of a VTK view. A Scene of
-    a file is read again with its models, and must not have changed since; one of a description is in the dataset as
-    scene.json, and its model files are read again; a Snapshot is in the dataset with its models and textures, as the scene
+    a file is read again with its models, as these are now; the file must not have changed since. One of a description
+    is in the dataset as scene.json, and its model files are read again; a Snapshot is in the dataset with its models and textures, as the scene
     that its save() writes is with pack=True. Each scene of a folder becomes a dataset in folder/<its name>; progress counts
     scenes then, and the manifest names the datasets. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
     integer, (first, last) or (first, last, step), both ends included, or a range; default: all. cameras: a name or a list of names;
