@@ -314,6 +314,8 @@ TEST(TextureFile, RefusedPictures)
   EXPECT_FALSE(decoded("a.png", "no picture at all", &problem));
   EXPECT_NE(problem, "");
   EXPECT_EQ(problem.find('\n'), std::string::npos);
+  EXPECT_FALSE(decoded("a.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>", &problem));
+  EXPECT_EQ(problem, "is in a format that is not read");
   EXPECT_FALSE(decoded("a.pgm", "P5 16385 1 255\n" + std::string(16385, 'x'), &problem));
   EXPECT_EQ(problem, "is 16385 x 1 pixels, at most 16384 a side");
   EXPECT_FALSE(decoded("a.pcx", pcx(3, 2, "").substr(0, 100), &problem));

@@ -7,12 +7,14 @@
 namespace dgtk
 {
 
+const char* const pcxCutShort = "is a PCX picture cut short";
+
 namespace
 {
 constexpr std::size_t pcxHeader = 128;
 constexpr std::size_t paletteBytes = 768;
 
-/// Bytes of the picture's rows, all planes of a row one after another. What is missing stays 0.
+/// Bytes of the picture's rows, all planes of a row one after another; fewer than `bytes` where the file lacks some.
 std::vector<std::uint8_t> unpack(const std::uint8_t* data, std::size_t size, std::size_t bytes)
 {
   std::vector<std::uint8_t> out;
@@ -28,7 +30,6 @@ std::vector<std::uint8_t> unpack(const std::uint8_t* data, std::size_t size, std
     }
     out.insert(out.end(), std::min(run, bytes - out.size()), value);
   }
-  out.resize(bytes, 0);
   return out;
 }
 } // namespace
@@ -61,14 +62,20 @@ PcxPicture::PcxPicture(const std::uint8_t* data, std::size_t bytes, int largestS
   // a run of 63 takes two bytes: a file cannot hold more pixels than this
   else if (this->LineBytes * this->Planes * this->Height > (bytes - pcxHeader) * 32)
   {
-    this->Problem = "is a PCX picture cut short";
+    this->Problem = pcxCutShort;
   }
 }
 
-void PcxPicture::decode(std::uint8_t* rgb) const
+bool PcxPicture::decode(std::uint8_t* rgb) const
 {
-  const std::vector<std::uint8_t> rows = unpack(this->Data, this->Bytes, this->LineBytes * this->Planes * this->Height);
-  const std::uint8_t* palette = this->Data + this->Bytes - paletteBytes;
+  const std::size_t end = this->Planes == 1 ? this->Bytes - paletteBytes - 1 : this->Bytes;
+  const std::size_t wanted = this->LineBytes * this->Planes * this->Height;
+  const std::vector<std::uint8_t> rows = unpack(this->Data, end, wanted);
+  if (rows.size() < wanted)
+  {
+    return false;
+  }
+  const std::uint8_t* palette = this->Data + end + 1;
   for (std::size_t y = 0; y < this->Height; ++y)
   {
     const std::uint8_t* line = &rows[y * this->LineBytes * this->Planes];
@@ -80,6 +87,7 @@ void PcxPicture::decode(std::uint8_t* rgb) const
       }
     }
   }
+  return true;
 }
 
 } // namespace dgtk

@@ -9,6 +9,8 @@
 namespace dgtk
 {
 
+extern const char* const pcxCutShort;
+
 /// A PCX picture in memory: run-length coded, 8 bits with a palette of 256 colours, or 24 bits in three planes.
 class PcxPicture
 {
@@ -19,8 +21,8 @@ public:
   const std::string& problem() const { return this->Problem; }
   std::size_t width() const { return this->Width; }
   std::size_t height() const { return this->Height; }
-  /// Writes width() * height() pixels, R, G, B, rows top to bottom. What the file lacks is 0.
-  void decode(std::uint8_t* rgb) const;
+  /// Writes width() * height() pixels, R, G, B, rows top to bottom. False where the file lacks some (pcxCutShort).
+  bool decode(std::uint8_t* rgb) const;
 
 private:
   const std::uint8_t* Data;

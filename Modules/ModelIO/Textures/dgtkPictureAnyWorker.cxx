@@ -46,6 +46,23 @@ std::uint64_t mostExpansion(const std::string& format)
   return 0;
 }
 
+const std::string cutShort = "is cut short";
+
+/// What OpenImageIO says, in words for users: a second line says little more.
+std::string inWords(const std::string& said)
+{
+  const auto says = [&said](const char* what) { return said.find(what) != std::string::npos; };
+  if (says("could not find a format reader"))
+  {
+    return "is in a format that is not read";
+  }
+  if (says("hit end of file") || says("Premature end of JPEG file") || says("premature end of data"))
+  {
+    return cutShort;
+  }
+  return said.substr(0, said.find('\n'));
+}
+
 /// The decoder of the extension first, then whichever wants the file.
 std::unique_ptr<OIIO::ImageInput> open(const Request& request, const std::string& path, std::string& problem)
 {
@@ -197,7 +214,7 @@ void decode(const Request& request, int file, int memory, Answer& answer)
   const auto input = open(request, path, problem);
   if (!input)
   {
-    refuse(answer, problem);
+    refuse(answer, inWords(problem));
     return;
   }
   const OIIO::ImageSpec& spec = input->spec();
@@ -225,7 +242,12 @@ void decode(const Request& request, int file, int memory, Answer& answer)
     const auto type = request.values == Values::Floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
     if (!input->read_image(0, 0, 0, answer.channels, type, moves ? static_cast<void*>(asInFile.data()) : pixels.data()))
     {
-      refuse(answer, input->geterror());
+      refuse(answer, inWords(input->geterror()));
+      return;
+    }
+    if (const std::string words = inWords(input->geterror()); words == cutShort) // of some formats it fills the rest
+    {
+      refuse(answer, words);
       return;
     }
     if (moves)

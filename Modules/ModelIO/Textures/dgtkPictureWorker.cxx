@@ -4,6 +4,7 @@
 #include "dgtkPcx.h"
 #include "dgtkPictureServer.h"
 
+#include <jerror.h>
 #include <jpeglib.h>
 #include <png.h>
 
@@ -177,15 +178,21 @@ public:
       JSAMPROW line = pixels + this->Read.output_scanline * row;
       jpeg_read_scanlines(&this->Read, &line, 1);
     }
+    // of several scans the last ones may lack, and arithmetic coding warns of no bit that does
+    const bool needsEnd = jpeg_has_multiple_scans(&this->Read) || this->Read.arith_code;
     jpeg_finish_decompress(&this->Read);
-    return true;
+    return !(this->LacksEnd && needsEnd);
   }
 
 private:
   static void stop(j_common_ptr read) { std::longjmp(static_cast<Jpeg*>(read->client_data)->Stop, 1); }
   static void message(j_common_ptr read, int level)
   {
-    if (level < 0) // a warning of damage
+    if (level < 0 && read->err->msg_code == JWRN_JPEG_EOF) // what lacks may be the mark of the end alone
+    {
+      static_cast<Jpeg*>(read->client_data)->LacksEnd = true;
+    }
+    else if (level < 0) // a warning of damage
     {
       stop(read);
     }
@@ -193,6 +200,7 @@ private:
 
   jpeg_decompress_struct Read{};
   jpeg_error_mgr Errors{};
+  bool LacksEnd = false;
 };
 
 void decodeSound(Sound& picture, const Request& request, int memory, Answer& answer)
@@ -229,7 +237,11 @@ void decodePcx(const Mapping& file, const Request& request, int memory, Answer& 
   if (request.step == Step::Decode)
   {
     const PixelMemory pixels(request, answer, memory);
-    picture.decode(static_cast<std::uint8_t*>(pixels.data()));
+    if (!picture.decode(static_cast<std::uint8_t*>(pixels.data())))
+    {
+      refuse(answer, dgtk::pcxCutShort);
+      return;
+    }
   }
   answer.status = Status::Done;
 }
