@@ -361,7 +361,9 @@ std::string withoutHarm(const std::string& path, const ReadContents& contentsOf)
         return; // as most files, which are not parsed for it
       }
       const GltfFile file(path, [&bytes](const std::string&) { return bytes; });
-      written = file.hasSparseGaps() ? inOrder(bytes) : nodesSay(file, "skin") ? withoutSkins(bytes) : std::string();
+      written = file.hasSparseGaps()     ? inOrder(path, contentsOf)
+                : nodesSay(file, "skin") ? withoutSkins(bytes)
+                                         : std::string();
     });
   if (!problem.empty() && maySparseHaveGaps(bytes))
   {
@@ -370,10 +372,10 @@ std::string withoutHarm(const std::string& path, const ReadContents& contentsOf)
   return written;
 }
 
-std::string inOrder(const std::string& bytes)
+std::string inOrder(const std::string& path, const ReadContents& contentsOf)
 {
   std::string written;
-  problemOf([&] { written = withoutSkins(GltfFile::inOrder(bytes)); });
+  problemOf([&] { written = withoutSkins(GltfFile(path, contentsOf).inOrder(contentsOf(path))); });
   return written;
 }
 

@@ -19,8 +19,8 @@ using ReadContents = std::function<std::string(const std::string& name)>;
 /// cannot be parsed.
 std::string withoutHarm(const std::string& path, const ReadContents& contentsOf);
 /// As withoutHarm(), as Assimp 5.2 takes them: it wants a scene, the sets of an attribute in the order of their
-/// numbers, and extras to be objects. "" where they are no glTF.
-std::string inOrder(const std::string& bytes);
+/// numbers, extras to be objects, and something to draw in every primitive. "" where they are no glTF.
+std::string inOrder(const std::string& path, const ReadContents& contentsOf);
 
 /// Reads places of nodes again from a glTF file, in double precision, and animations, where Assimp 5.2 loses something:
 /// steps and splines between keys become lines, weights below 0 become 0, and nodes of equal names are confused; and

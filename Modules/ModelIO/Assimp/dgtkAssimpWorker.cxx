@@ -291,7 +291,7 @@ void read(const std::string& path, const std::string& format, Scene& scene)
   const aiScene* found = importer.ReadFile(path, 0u);
   if (!found && format == "gltf" && files->LongNumber.empty())
   {
-    files->Text = dgtk::import::inOrder(contents(path));
+    files->Text = dgtk::import::inOrder(path, contents);
     found = files->Text.empty() ? found : importer.ReadFile(path, 0u);
   }
   std::string().swap(files->Text); // and its memory

@@ -151,18 +151,94 @@ GltfFile::GltfFile(const std::string& path, const ReadContents& contentsOf)
   , ContentsOf(contentsOf)
 {
   const std::string bytes = contentsOf(path);
-  std::size_t binary = 0;
-  std::tie(this->Root, binary) = parsed(bytes);
-  if (binary + 8 <= bytes.size())
+  std::tie(this->Root, this->End) = parsed(bytes);
+  if (this->End + 8 <= bytes.size())
   {
-    this->Binary = bytes.substr(binary + 8, littleWord(bytes, binary));
+    this->Binary = bytes.substr(this->End + 8, littleWord(bytes, this->End));
+  }
+}
+
+std::size_t GltfFile::vertices(const Json& primitive) const
+{
+  const Json& attributes = primitive.at("attributes");
+  return attributes.contains("POSITION")
+           ? this->item("accessors", attributes["POSITION"]).at("count").get<std::size_t>()
+           : 0;
+}
+
+bool GltfFile::drawsNothing(const Json& primitive)
+{
+  const std::size_t count = this->vertices(primitive);
+  const int mode = primitive.value("mode", 4);
+  const std::size_t size = mode >= 4 ? 3 : mode >= 1 ? 2 : 1;
+  const std::size_t step = mode == 4 ? 3 : mode == 1 ? 2 : 1;
+  if (!primitive.contains("indices"))
+  {
+    return count < size;
+  }
+  const std::vector<double> corners = this->numbers(primitive["indices"], 1, Integers::AsSaid);
+  const auto exists = [&](std::size_t corner) { return corners[corner] < double(count); };
+  for (std::size_t begin = 0; begin + size <= corners.size(); begin += step)
+  {
+    bool all = mode != 6 || exists(0); // a fan's triangles share the first corner
+    for (std::size_t i = mode == 6 ? 1 : 0; i < size; ++i)
+    {
+      all = all && exists(begin + i);
+    }
+    if (all)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void GltfFile::replaceEmpty()
+{
+  std::vector<Json*> empty;
+  const Json* fewest = nullptr; // places that others can have
+  for (Json& mesh : this->Root["meshes"])
+  {
+    for (Json& primitive : mesh["primitives"])
+    {
+      const std::size_t count = this->vertices(primitive);
+      if (count > 0 && (fewest == nullptr || count < this->vertices(*fewest)))
+      {
+        fewest = &primitive;
+      }
+      if (this->drawsNothing(primitive))
+      {
+        empty.push_back(&primitive);
+      }
+    }
+  }
+  const Json places = fewest ? (*fewest)["attributes"]["POSITION"] : Json();
+  for (Json* const primitive : fewest ? empty : std::vector<Json*>())
+  {
+    (*primitive)["mode"] = 0;
+    primitive->erase("indices");
+    if (this->vertices(*primitive) == 0)
+    {
+      primitive->erase("targets");
+      (*primitive)["attributes"] = { { "POSITION", places } };
+    }
   }
 }
 
 std::string GltfFile::inOrder(const std::string& bytes)
 {
-  auto [root, end] = parsed(bytes);
-  for (Json& list : root)
+  try
+  {
+    this->replaceEmpty();
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw;
+  }
+  catch (const std::exception&) // the importer refuses it
+  {
+  }
+  for (Json& list : this->Root)
   {
     for (Json& item : list)
     {
@@ -170,19 +246,19 @@ std::string GltfFile::inOrder(const std::string& bytes)
       {
         item.erase("extras");
       }
-      if (isSparseWithGaps(item, root))
+      if (isSparseWithGaps(item, this->Root))
       {
         item.erase("sparse");
       }
     }
   }
-  std::string text = root.dump();
-  if (end == bytes.size())
+  std::string text = this->Root.dump();
+  if (this->End == bytes.size())
   {
     return text;
   }
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  const std::string rest = bytes.substr(std::min(end, bytes.size()));
+  const std::string rest = bytes.substr(std::min(this->End, bytes.size()));
   return "glTF" + word(2) + word(20 + text.size() + rest.size()) + word(text.size()) + "JSON" + text + rest;
 }
 

@@ -21,13 +21,15 @@ public:
   static constexpr int floatType = 5126; ///< of an accessor's components
 
   [[noreturn]] static void fail(const char* what);
-  /// The bytes of a file whose names are sorted, with a scene, without extras that are no objects and without sparse
-  /// values over rows with gaps.
-  static std::string inOrder(const std::string& bytes);
-
   GltfFile(const std::string& path, const ReadContents& contentsOf);
 
   const Json& root() const { return this->Root; }
+  /// The file, whose bytes are handed in, with sorted names, a scene, without extras that are no objects and without
+  /// sparse values over rows with gaps. Primitives of which nothing can be drawn are points, those without vertices
+  /// with the places of another one. root() is that, too, afterwards.
+  std::string inOrder(const std::string& bytes);
+  /// How many vertices a primitive has.
+  std::size_t vertices(const Json& primitive) const;
   /// Whether an accessor, or one of all, has sparse values over rows with gaps.
   bool hasSparseGaps(const Json& accessor) const;
   bool hasSparseGaps() const;
@@ -45,12 +47,15 @@ public:
   std::vector<double> ofVertices(std::size_t index, std::size_t components, Integers integers, const Mesh& mesh);
 
 private:
+  bool drawsNothing(const Json& primitive);
+  void replaceEmpty();
   const std::string& buffer(std::size_t index);
   std::vector<double> list(const Json& where, int type, std::size_t count, std::size_t components, bool normalized);
 
   std::filesystem::path Folder;
   ReadContents ContentsOf;
   Json Root;
+  std::size_t End = 0; ///< of the JSON in the file
   std::string Binary;
   std::map<std::size_t, std::string> Buffers;
 };

@@ -56,12 +56,29 @@ public:
       this->Whole.warnings.push_back(std::to_string(this->LeftOut) + (this->LeftOut == 1 ? " surface" : " surfaces") +
                                      " left out: a vertex that does not exist");
     }
+    if (this->Empty > 0)
+    {
+      this->Whole.warnings.push_back(
+        std::to_string(this->Empty) + (this->Empty == 1 ? " primitive" : " primitives") + " left out: nothing to draw");
+    }
   }
 
 private:
   void run(const Json& primitive, Mesh& mesh)
   {
+    const bool lacksVertices = this->File.vertices(primitive) == 0;
+    if (!mesh.faceSizes.empty() && mesh.faceSizes[0] == 1 && (lacksVertices || primitive.value("mode", 4) != 0))
+    {
+      ++this->Empty; // inOrder() has made it points
+      mesh.faceSizes.clear();
+      mesh.faceVertices.clear();
+    }
     this->count(primitive, mesh.faceSizes.size());
+    if (lacksVertices)
+    {
+      mesh.positions.clear(); // of another one
+      return;
+    }
     const Json& attributes = primitive.at("attributes");
     const Json none = Json::object();
     const Json& material =
@@ -262,6 +279,7 @@ private:
   std::set<std::string> Said;
   std::set<std::size_t> Glowing;
   std::size_t LeftOut = 0; ///< triangles
+  std::size_t Empty = 0;   ///< primitives
 };
 } // namespace
 

@@ -68,6 +68,10 @@ private:
 
   void say(const Json& primitive, const Json& skin, const Json& weights, Mesh& mesh)
   {
+    if (mesh.positions.empty())
+    {
+      return; // left out
+    }
     const Json& attributes = primitive.at("attributes");
     for (std::size_t t = 0; t < std::min(weights.size(), mesh.targets.size()); ++t)
     {

@@ -405,3 +405,44 @@ TEST(GltfMeshes, AlphaOfColoursOfWhatIsAMask)
   EXPECT_THAT(warningsOf("BLEND"), testing::IsEmpty());
   EXPECT_THAT(warningsOf("OPAQUE"), testing::IsEmpty());
 }
+
+TEST(GltfMeshes, PrimitivesWithoutASurfaceAreLeftOut)
+{
+  GltfMaker maker = bare();
+  const int places = maker.floats("VEC3", corners);
+  const int two = maker.floats("VEC3", { 0, 0, 0, 1, 0, 0 });
+  attributesOf(maker)["POSITION"] = places;
+  struct Row
+  {
+    Json primitive;
+    const char* surfaces; ///< that are left out
+  };
+  const auto indices = [&maker](const std::vector<std::uint16_t>& list) { return maker.shorts("SCALAR", list); };
+  const Json own = { { "POSITION", places } };
+  const Row rows[] = { { { { "attributes", { { "POSITION", two } } } }, "" },
+    { { { "attributes", own }, { "indices", indices({ 0, 1 }) } }, "" },
+    { { { "attributes", own }, { "indices", indices({ 0, 1, 3 }) } }, "1 surface" },
+    { { { "attributes", own }, { "indices", indices({ 0, 1, 65535, 2, 0 }) }, { "mode", 5 } }, "3 surfaces" },
+    { { { "attributes", own }, { "indices", indices({ 3, 0, 1, 2, 0 }) }, { "mode", 6 } }, "3 surfaces" },
+    { { { "attributes", { { "NORMAL", two } } }, { "indices", indices({ 0, 1, 2 }) },
+        { "targets", { { { "POSITION", two } } } } },
+      "1 surface" } };
+  for (const Row& row : rows)
+  {
+    maker.json["meshes"][0]["primitives"][1] = row.primitive;
+    std::vector<std::string> expected{ "1 primitive left out: nothing to draw" };
+    if (*row.surfaces != '\0')
+    {
+      expected.insert(expected.begin(), std::string(row.surfaces) + " left out: a vertex that does not exist");
+    }
+    for (const auto& [extension, bytes] : { std::pair{ "gltf", maker.gltf() }, std::pair{ "glb", maker.glb() } })
+    {
+      const auto model = readBytes(extension, bytes);
+      EXPECT_EQ(brokenPromise(*model), "");
+      EXPECT_EQ(model->triangles.size(), 1u) << row.primitive;
+      EXPECT_THAT(model->warnings, testing::ElementsAreArray(expected)) << row.primitive;
+    }
+  }
+  maker.json["meshes"][0]["primitives"].erase(0);
+  EXPECT_THAT(refusal("gltf", maker.gltf()), testing::HasSubstr("has no faces"));
+}
