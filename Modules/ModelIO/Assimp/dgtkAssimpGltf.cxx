@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,6 +24,7 @@ using Json = GltfFile::Json;
 
 constexpr std::string_view skinKey = "\"skin\"";
 constexpr std::string_view sparseKey = "\"sparse\"";
+constexpr double mostRounding = 1e-6; ///< of the square of a rotation's length, in single precision
 
 /// Times and rows of one sampler; a spline's rows come three a key.
 struct Sampler
@@ -226,7 +228,12 @@ Matrix placeOf(const Json& node)
   const auto [x, y, z, w] = node.value("rotation", std::array<double, 4>{ 0, 0, 0, 1 });
   const auto translation = node.value("translation", Vector{ 0, 0, 0 });
   const auto scale = node.value("scale", Vector{ 1, 1, 1 });
-  const Eigen::Matrix3d turn = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
+  Eigen::Quaterniond rotation(w, x, y, z);
+  if (std::abs(rotation.squaredNorm() - 1) > mostRounding && rotation.squaredNorm() > 0)
+  {
+    rotation.normalize(); // it would scale otherwise
+  }
+  const Eigen::Matrix3d turn = rotation.toRotationMatrix();
   for (std::size_t i = 0; i < 3; ++i)
   {
     to[4 * i + 3] = translation[i];
@@ -426,9 +433,18 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
   {
     scene.warnings.push_back("colours of vertices and places of textures do not count: " + ofMeshes);
   }
-  for (const std::string& extension : file ? extensionsOf(*file, "extensionsRequired") : std::set<std::string>())
+  const std::set<std::string> required = file ? extensionsOf(*file, "extensionsRequired") : std::set<std::string>();
+  for (const std::string& extension : required)
   {
     requireExtension(extension, scene);
+  }
+  for (const char* const extension : { "EXT_mesh_gpu_instancing", "KHR_node_visibility", "KHR_animation_pointer" })
+  {
+    if (used.count(extension) > 0 && required.count(extension) == 0)
+    {
+      scene.warnings.push_back(
+        std::string("the glTF extension \"") + extension + "\", which says what is there or moves, is not read");
+    }
   }
 }
 

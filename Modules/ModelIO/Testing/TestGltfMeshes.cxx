@@ -318,6 +318,17 @@ TEST(GltfMeshes, WeightsOfBytes)
   EXPECT_NEAR(model->rest->positions[t[2]].z(), 8, 1e-6) << "four fifths of the way";
 }
 
+TEST(GltfMeshes, ARotationOfAnotherLengthThanOneDoesNotScale)
+{
+  GltfMaker maker = bare();
+  attributesOf(maker)["POSITION"] = maker.floats("VEC3", corners);
+  maker.json["nodes"][0]["rotation"] = { 0, 0, 2, 2 };
+  const auto model = readBytes("glb", maker.glb());
+  const auto& t = model->triangles.at(0);
+  expectNear({ 0, 1, 0 }, model->rest->positions[t[1]]);
+  expectNear({ -1, 0, 0 }, model->rest->positions[t[2]]);
+}
+
 TEST(GltfMeshes, ExtensionsThatAFileNeeds)
 {
   GltfMaker maker = bare();
@@ -325,6 +336,11 @@ TEST(GltfMeshes, ExtensionsThatAFileNeeds)
   maker.json["extensionsRequired"] = { "KHR_texture_basisu" };
   EXPECT_THAT(readBytes("glb", maker.glb())->warnings,
     testing::ElementsAre("the glTF extension \"KHR_texture_basisu\", which the file needs, is not read"));
+  maker.json["extensionsRequired"] = { "KHR_node_visibility" };
+  maker.json["extensionsUsed"] = { "EXT_mesh_gpu_instancing", "KHR_node_visibility", "KHR_materials_clearcoat" };
+  EXPECT_THAT(readBytes("glb", maker.glb())->warnings,
+    testing::ElementsAre("the glTF extension \"KHR_node_visibility\", which the file needs, is not read",
+      "the glTF extension \"EXT_mesh_gpu_instancing\", which says what is there or moves, is not read"));
   maker.json["extensionsRequired"] = { "EXT_meshopt_compression" };
   try
   {
