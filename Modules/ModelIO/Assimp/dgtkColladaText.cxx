@@ -2,6 +2,7 @@
 #include "dgtkColladaText.h"
 
 #include "dgtkColladaSurvey.h"
+#include "dgtkColladaTurns.h"
 
 #include <array>
 #include <cmath>
@@ -345,6 +346,8 @@ ColladaText colladaText(const std::string& xml)
   NodeNames nodes(survey);
   Coordinates coordinates(survey);
   Samplers samplers;
+  ColladaTurns turns(xml, mark);
+  to.warnings.insert(to.warnings.end(), turns.warnings.begin(), turns.warnings.end());
   bool isInInit = false;
   std::string (*meant)(const std::string&) = nullptr; // of the text behind the last markup
   forEachMarkup(xml,
@@ -359,15 +362,20 @@ ColladaText colladaText(const std::string& xml)
         to.text.append(xml, begin, end - begin);
       }
       to.text += pictures.before(markup);
+      to.text += turns.before(markup);
       meant = markup.begins("rotate") ? &rotation : markup.begins("lookat") ? &lookat : nullptr;
       if (markup.begins("node"))
       {
-        to.text += nodes.tag(markup);
+        to.text += turns.tag(markup, nodes.tag(markup));
       }
       else if (!markup.isOf("unit"))
       {
         const std::string tag = inOldWords(markup, withBlack(markup, coordinates.tag(markup)), isInInit);
-        to.text += samplers.tag(xml.substr(begin, end - begin), markup, tag);
+        to.text += turns.tag(markup, samplers.tag(xml.substr(begin, end - begin), markup, tag));
+        // it may be left out, and is 0 in Assimp 5.2; what the skin says comes later, and counts
+        to.text += markup.begins("skin") && !markup.isEmpty()
+                     ? "<bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>"
+                     : "";
         isInInit = markup.isOf("init_from") ? !markup.isEnd() && !markup.isEmpty() : isInInit;
       }
     });

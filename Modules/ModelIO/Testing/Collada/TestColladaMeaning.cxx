@@ -130,6 +130,7 @@ TEST(ColladaMeaning, SkinsFollowJointsWithoutNames)
             " sid='j' type='JOINT'><translate>0 0 2</translate></node><node id='d' name='d'>" + drawnSkin + "</node>",
         skin()));
     EXPECT_EQ(model->boundsMin, Eigen::Vector3d(0, 0, 2)) << names;
+    EXPECT_EQ(model->boundsMax, Eigen::Vector3d(1, 1, 2)) << names << ": without a bind_shape_matrix";
     EXPECT_TRUE(model->warnings.empty()) << names;
   }
 }
@@ -281,4 +282,74 @@ TEST(ColladaMeaning, WhatStandsBesideTheModelIsPassedOver)
   ASSERT_EQ(model->triangles.size(), 1u);
   EXPECT_NEAR(model->boundsMax.x(), 0, 1e-6); // turned, and not stretched
   EXPECT_NEAR(model->boundsMax.y(), 1, 1e-6);
+}
+
+namespace
+{
+/// A quarter turn in a second, of each of the targets.
+std::string turns(const std::vector<std::string>& targets)
+{
+  std::string text = "<library_animations>";
+  for (std::size_t i = 0; i < targets.size(); ++i)
+  {
+    const std::string n = std::to_string(i);
+    text += "<animation id='A" + n + "'>" + source("i" + n, "float", 2, 1, "0 1") +
+            source("o" + n, "float", 2, 1, "0 90") + source("n" + n, "Name", 2, 1, "LINEAR LINEAR") + "<sampler id='S" +
+            n + "'><input semantic='INPUT' source='#i" + n + "'/><input semantic='OUTPUT' source='#o" + n +
+            "'/><input semantic='INTERPOLATION' source='#n" + n + "'/></sampler><channel source='#S" + n +
+            "' target='" + targets[i] + "'/></animation>";
+  }
+  return text + "</library_animations>";
+}
+
+const double half = std::sqrt(0.5);
+} // namespace
+
+TEST(ColladaMeaning, WhatTurnsAboutAPivotStaysAtItsDistance)
+{
+  const std::string nodes = "<node id='n' name='Door'><translate sid='a'>2 0 0</translate>"
+                            "<rotate sid='z'>0 0 1 0</rotate><translate sid='b'>-2 0 0</translate><extra/>" +
+                            instance + "<node id='child' name='Knob'>" + instance + "</node></node>";
+  const auto model = readBytes("dae", dae(nodes, turns({ "n/z.ANGLE" })));
+  EXPECT_EQ(brokenPromise(*model), "");
+  EXPECT_THAT(partsOf(*model), ElementsAre("Door", "Knob"));
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+  const auto p = inTheMiddle(*model);
+  ASSERT_EQ(p.size(), 6u);
+  expectClose(p[0], { 2 - 2 * half, -2 * half, 0 });
+  expectClose(p[1], { 2 - half, -half, 0 });
+  expectClose(p[3], p[0]);
+}
+
+TEST(ColladaMeaning, TurnsAboutSeveralAxesAreThoseOfTheirAngles)
+{
+  const std::string axes = "<rotate sid='z'>0 0 1 0</rotate><rotate sid='x'>1 0 0 0</rotate>";
+  const auto expectTurned = [](const dgtk::Model& model)
+  {
+    const auto p = inTheMiddle(model);
+    ASSERT_EQ(p.size(), 3u);
+    expectClose(p[1], { half, half, 0 });
+    expectClose(p[2], { -0.5, 0.5, half });
+  };
+  expectTurned(
+    *readBytes("dae", dae("<node id='n'>" + axes + instance + "</node>", turns({ "n/z.ANGLE", "n/x.ANGLE" }))));
+  // a skin finds its joint
+  const auto skinned = readBytes(
+    "dae", dae("<node id='r' sid='j' name='Joint' type='JOINT'>" + axes + "</node><node>" + drawnSkin + "</node>",
+             turns({ "r/z.ANGLE", "r/x.ANGLE" }) + skin()));
+  expectTurned(*skinned);
+}
+
+TEST(ColladaMeaning, WhatElseANodeSaysStaysAsItIs)
+{
+  const std::string place = "<translate sid='t'>0 0 0</translate><rotate sid='z'>0 0 1 0</rotate>";
+  const auto both = inTheMiddle(
+    *readBytes("dae", dae("<node id='n'>" + place + instance + "</node>", turns({ "n/t.Y", "n/z.ANGLE" }))));
+  ASSERT_EQ(both.size(), 3u);
+  expectClose(both[1], { half, 45 + half, 0 });
+  // a node that others stand for cannot be taken apart
+  const std::string twice = "<node id='n'><rotate sid='z'>0 0 1 0</rotate><translate>1 0 0</translate>" + instance +
+                            "</node><node><instance_node url='#n'/></node>";
+  EXPECT_THAT(readBytes("dae", dae(twice, turns({ "n/z.ANGLE" })))->warnings,
+    ElementsAre("node \"n\" turns about a pivot or several axes: its way between keys is a straight line"));
 }
