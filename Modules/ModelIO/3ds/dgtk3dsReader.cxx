@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkByteReader.h"
+#include "dgtk3dsMotion.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkModelBuilder.h"
@@ -465,6 +465,7 @@ private:
     warn(this->UnknownMaterials, " list(s) of faces name a material that does not exist");
     warn(this->BadFaces, " entries of materials name a face that does not exist");
     warn(this->Turned, " texture(s) are drawn without the angle that their material says");
+    warn(countMoving3ds(this->In), " object(s) move: the motion of 3DS files is not read");
   }
 
   ByteReader In;

@@ -88,6 +88,21 @@ TEST(Studio3ds, VerticesAreDrawnAsTheyAre)
   EXPECT_EQ((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]), Eigen::Vector3d(0, 0, 1));
 }
 
+TEST(Studio3ds, MotionHasAWarning)
+{
+  const std::string object =
+    chunk3ds(0x3d3d, chunk3ds(0x4000, text3ds("thing") + chunk3ds(0x4100, vertices(roof) + faces3ds(roofFaces))));
+  const auto track = [](std::uint16_t id, unsigned keys) { return chunk3ds(id, u16(0) + u32(0) + u32(0) + u32(keys)); };
+  const auto warnings = [&](const std::string& nodes)
+  { return readBytes("3ds", chunk3ds(0x4d4d, object + chunk3ds(0xb000, nodes)))->warnings; };
+  const std::string still = chunk3ds(0xb002, track(0xb020, 1) + track(0xb021, 1) + track(0xb022, 1));
+  EXPECT_THAT(warnings(still + chunk3ds(0xb002, chunk3ds(0xb020, u16(0)))), testing::IsEmpty());
+  EXPECT_THAT(warnings(chunk3ds(0xb003, track(0xb020, 2))), testing::IsEmpty()) << "a camera";
+  EXPECT_THAT(warnings(still + chunk3ds(0xb002, track(0xb020, 1) + track(0xb021, 2)) +
+                       chunk3ds(0xb002, track(0xb022, 3)) + chunk3ds(0xb002, track(0xb020, 2))),
+    testing::ElementsAre("3 object(s) move: the motion of 3DS files is not read"));
+}
+
 TEST(Studio3ds, SmoothingGroups)
 {
   const auto normals = [](const std::vector<unsigned long>& groups)
