@@ -151,7 +151,12 @@ void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
                                  : keyword == "Ke" ? &material.emission
                                                    : nullptr;
   const std::string_view rest = statements.rest();
-  if (color && rest.rfind("spectral", 0) != 0 && rest.rfind("xyz", 0) != 0)
+  const std::string_view first = ahead(statements);
+  if (color && (first == "spectral" || first == "xyz"))
+  {
+    entry.unreadColors.insert(std::string(keyword) + ' ' + std::string(first));
+  }
+  else if (color)
   {
     Eigen::Vector3d value(0, 0, 0);
     const std::size_t count = statements.numbers(value.data(), 3);
@@ -226,6 +231,11 @@ int ObjMaterials::add(const Entry& entry)
   {
     this->Builder.warn("material " + dgtk::quoted(material.name) + " has opacity 0: drawn opaque");
     material.opacity = 1;
+  }
+  for (const std::string& statement : entry.unreadColors)
+  {
+    this->Builder.warn(
+      "material " + dgtk::quoted(material.name) + ": a colour of " + quoted(statement) + " is not read");
   }
   const Picture& picture = entry.picture;
   material.texture = this->addPicture(entry, picture);

@@ -49,8 +49,9 @@ private:
     Picture normals;
     std::string folder;           ///< of its library, from the model's, with a slash at its end; "" for the model's own
     std::set<std::string> unread; ///< statements of other pictures
-    bool shines = true;           ///< its illumination model has highlights
-    bool colored = false;         ///< it says a diffuse colour
+    std::set<std::string> unreadColors; ///< statements of colours that are not red, green and blue
+    bool shines = true;                 ///< its illumination model has highlights
+    bool colored = false;               ///< it says a diffuse colour
   };
   static Entry unsaid(const std::string& name); ///< what a library does not say
   static Picture readPicture(class ObjStatements& statements);

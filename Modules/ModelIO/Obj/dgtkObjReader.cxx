@@ -172,6 +172,7 @@ private:
     {
       const bool freeForm = keyword == "curv" || keyword == "curv2" || keyword == "surf";
       this->FreeForms += freeForm ? 1 : 0;
+      this->Calls += keyword == "call" || keyword == "csh" ? 1 : 0;
       return freeForm;
     }
     return true;
@@ -326,6 +327,8 @@ private:
     this->warnOf(this->Points, " point is not drawn", " points are not drawn");
     this->warnOf(
       this->FreeForms, " free-form curve or surface is not drawn", " free-form curves and surfaces are not drawn");
+    this->warnOf(this->Calls, " statement that puts in what another file or program says (call, csh) is not followed",
+      " statements that put in what other files or programs say (call, csh) are not followed");
     this->warnOf(this->Lost, " corner names a texture coordinate or normal that does not exist",
       " corners name texture coordinates or normals that do not exist");
   }
@@ -367,6 +370,7 @@ private:
   std::size_t FirstVertex = 0; ///< of the builder, in the current object
   std::uint64_t Points = 0;
   std::uint64_t FreeForms = 0;
+  std::uint64_t Calls = 0; ///< of other files and programs
   std::uint64_t Lost = 0;
 };
 } // namespace

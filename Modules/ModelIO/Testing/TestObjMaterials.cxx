@@ -101,3 +101,22 @@ TEST(ObjMaterials, PicturesLieBesideTheirLibraryFirst)
   put("mats/deep/other.ppm");
   EXPECT_EQ(found(0, &dgtk::Material::normalMap), "mats/deep/other.ppm");
 }
+
+TEST(ObjMaterials, ColoursThatAreNotReadHaveAWarning)
+{
+  const std::string library =
+    "newmtl m\nKd xyz 0.2 0.2 0.2\nKs spectral foo.rfl 1\nKa 1 1 1\nnewmtl other\nKd xyz 1 1 1\n";
+  const auto model = readWithLibrary(library, "mtllib a.mtl\n" + threeCorners + "usemtl m\nf 1 2 3\n");
+  EXPECT_THAT(model->warnings, testing::ElementsAre("material 'm': a colour of 'Kd xyz' is not read",
+                                 "material 'm': a colour of 'Ks spectral' is not read"));
+}
+
+TEST(ObjMaterials, OtherFilesAndProgramsThatAreCalledHaveAWarning)
+{
+  const auto warnings = [](const std::string& calls)
+  { return readWithLibrary("", threeCorners + calls + "f 1 2 3\n")->warnings; };
+  EXPECT_THAT(warnings("call other.obj 1\n"),
+    testing::ElementsAre("1 statement that puts in what another file or program says (call, csh) is not followed"));
+  EXPECT_THAT(warnings("call other.obj\ncsh -ls\n"),
+    testing::ElementsAre("2 statements that put in what other files or programs say (call, csh) are not followed"));
+}
