@@ -17,6 +17,7 @@ using dgtk::locateTexture;
 using dgtk::writeFile;
 using dgtk::test::TemporaryFolder;
 using dgtk::test::u16;
+using dgtk::test::u32;
 using testing::HasSubstr;
 
 namespace
@@ -324,6 +325,21 @@ TEST(TextureFile, RefusedPictures)
   EXPECT_THAT(problem, HasSubstr("palette"));
   EXPECT_FALSE(decoded("a.pcx", pcx(16384, 16384, "\x01"), &problem));
   EXPECT_THAT(problem, HasSubstr("cut short"));
+}
+
+TEST(TextureFile, PackedBmpWhoseLastRowEnds)
+{
+  const std::string head = "BM" + u32(0) + u32(0) + u32(62) + u32(40) + u32(4) + u32(2) + u16(1) + u16(8) + u32(1) +
+                           u32(0) + u32(0) + u32(0) + u32(2) + u32(2) + u32(0x010203) + u32(0x040506);
+  // four pixels of a kind; four as they are, the last two of which look like the end of a row
+  const std::string rows("\x04\x01\0\0\0\x04\x01\x01\0\0\0\0\0\x01", 14);
+  for (const std::string& packed : { rows, std::string(rows).erase(10, 2) })
+  {
+    const auto image = decoded("a.bmp", head + packed);
+    ASSERT_TRUE(image) << packed.size();
+    EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 4, 5, 6, 255 }));
+    EXPECT_EQ(texel(*image, 3, 0), (std::vector<int>{ 1, 2, 3, 255 }));
+  }
 }
 
 TEST(TextureFile, OneFileIsDecodedOnce)

@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/mman.h>
+
 namespace
 {
 using namespace dgtk::picture;
@@ -61,6 +63,42 @@ std::string inWords(const std::string& said)
     return cutShort;
   }
   return said.substr(0, said.find('\n'));
+}
+
+/// Packed rows of a BMP file may end before the picture does, the last one, too: OpenImageIO 2.4 takes what follows
+/// that one for a row that is not there. In the file, which is in memory, the picture ends there instead.
+void endBmpWithItsLastRow(const Request& request, int file)
+{
+  const Mapping memory(file, request.fileBytes, PROT_READ | PROT_WRITE);
+  auto* const bytes = static_cast<std::uint8_t*>(memory.data());
+  const std::size_t size = memory.size();
+  constexpr std::size_t header = 54;
+  const auto word = [bytes](std::size_t at)
+  { return std::uint32_t(bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16) | std::uint32_t(bytes[at + 3]) << 24; };
+  if (size < header || bytes[0] != 'B' || bytes[1] != 'M' || word(14) < 40 || word(30) < 1 || word(30) > 2)
+  {
+    return;
+  }
+  const bool areHalves = word(30) == 2; // of bytes: 4 bits a pixel
+  std::uint32_t rows = 0;
+  for (std::size_t at = word(10); at + 1 < size && (bytes[at] != 0 || bytes[at + 1] != 1); at += 2)
+  {
+    const std::size_t second = bytes[at + 1];
+    if (bytes[at] == 0 && second == 0 && ++rows == word(22))
+    {
+      bytes[at + 1] = 1;
+      return;
+    }
+    if (bytes[at] == 0 && second == 2) // a move: two bytes, the second one in rows
+    {
+      rows += at + 3 < size ? bytes[at + 3] : 0;
+      at += 2;
+    }
+    else if (bytes[at] == 0 && second > 2) // pixels as they are, an even number of bytes
+    {
+      at += ((areHalves ? (second + 1) / 2 : second) + 1) / 2 * 2;
+    }
+  }
 }
 
 /// The decoder of the extension first, then whichever wants the file.
@@ -211,6 +249,7 @@ void decode(const Request& request, int file, int memory, Answer& answer)
 {
   std::string problem;
   const std::string path = descriptorFolder + std::to_string(file);
+  endBmpWithItsLastRow(request, file);
   const auto input = open(request, path, problem);
   if (!input)
   {
