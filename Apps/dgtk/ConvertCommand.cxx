@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkFolderContents.h"
 #include "dgtkModelReader.h"
+#include "dgtkNamedFile.h"
 #include "dgtkPovExport.h"
 #include "dgtkStage.h"
 #include "dgtkText.h"
@@ -89,7 +90,7 @@ int runConvert(const Arguments& arguments)
   {
     throw UsageError("nothing can be converted to " + quoted(to) + " (expected a name in .scene, .json or .pov)");
   }
-  requireOutsideDatasets(to);
+  requireOutsideDatasets(pov ? to : linkedPath(to));
   if (!pov)
   {
     const SceneDescription scene = readScene(from);

@@ -3,6 +3,7 @@
 
 #include "dgtkFile.h"
 #include "dgtkMatchPane.h"
+#include "dgtkNamedFile.h"
 #include "dgtkSaveName.h"
 
 #include <QAction>
@@ -349,7 +350,7 @@ bool MatchDialog::savePairs(const QString& path)
     [&]
     {
       const std::string text = this->Table->text();
-      writeFile(path.toStdString(), text);
+      writeNamedFile(path.toStdString(), text);
       this->Saved = text;
     });
 }

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkJson.h"
+#include "dgtkNamedFile.h"
 #include "dgtkSceneFromText.h"
 #include "dgtkSceneJson.h"
 #include "dgtkText.h"
@@ -111,7 +112,7 @@ void writeScene(const SceneDescription& scene, const std::string& path)
   {
     throw UsageError("a scene cannot be written as " + quoted(path) + " (expected a name in .scene or .json)");
   }
-  writeFileDurably(path, extension == "json" ? toJson(scene, folderOf(path)) : toThesisScene(scene, folderOf(path)));
+  writeNamedFile(path, extension == "json" ? toJson(scene, folderOf(path)) : toThesisScene(scene, folderOf(path)));
 }
 
 } // namespace dgtk

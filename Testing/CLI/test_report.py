@@ -416,6 +416,8 @@ class Report(ManyCase):
             self.refused("report", folder, "-o", os.path.join(folder, name), status=2, says=f"{name}: lies in the dataset in")
         for name in ("scene.json", "more.json"):
             self.refused("convert", os.path.join(SCENES, "demo.json"), os.path.join(folder, name), status=2, says=f"{name}: lies in the dataset in")
+            os.symlink(os.path.join(folder, name), self.path(f"to_{name}")) # which a scene is written through
+            self.refused("convert", os.path.join(SCENES, "demo.json"), self.path(f"to_{name}"), status=2, says=f"{name}: lies in the dataset in")
         self.dgtk("verify", folder)
         # a damaged picture is a note, and the rest is there
         with open(os.path.join(folder, "left/depth/000000.npy"), "r+b") as file:

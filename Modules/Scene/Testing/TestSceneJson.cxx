@@ -137,6 +137,20 @@ TEST(SceneJson, ARefusedWriteLeavesWhatWasThere)
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
+TEST(SceneJson, IsWrittenWhereALinkLeadsAndKeepsTheModeOfTheFile)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  writeFile(folder.path("real.json"), "{}");
+  fs::permissions(folder.path("real.json"), fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("real.json", folder.path("link.json"));
+  const SceneDescription scene = readText(folder, "a.json", R"({"objects": [{"model": "m/a.ac"}]})");
+  writeScene(scene, folder.path("link.json"));
+  EXPECT_TRUE(fs::is_symlink(folder.path("link.json")));
+  EXPECT_EQ(contentsOf(folder.path("real.json")), toJson(scene, folder.path()));
+  EXPECT_EQ(fs::status(folder.path("real.json")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
 TEST(SceneJson, ClassesKeepTheirNumbersAndTheirFile)
 {
   const TemporaryFolder folder;
