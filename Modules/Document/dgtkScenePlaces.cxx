@@ -175,9 +175,20 @@ WorldBox ScenePlaces::boxOf(const SceneItem& item) const
   return found;
 }
 
-double fieldOfViewOf(const CameraDescription& camera)
+std::optional<double> fieldOfViewOf(const CameraDescription& camera)
 {
-  return std::atan(camera.height / 2.0 / (*camera.K)(1, 1)) * 360 / pi;
+  CameraParameters of = cameraParameters(camera, 0, camera.width, camera.height);
+  of.rollingShutter = RollingShutter();
+  const auto distortion = of.numbers.find("distortion");
+  if (distortion != of.numbers.end())
+  {
+    std::fill(distortion->second.begin(), distortion->second.end(), 0);
+  }
+  const Eigen::Matrix3d& K = *camera.K;
+  const double y = -camera.height / 2.0 / K(1, 1); // on the plane of K
+  const CameraRay up = makeCamera(camera.model, of)->rayThrough({ K(0, 2) + K(0, 1) * y, K(1, 2) + K(1, 1) * y });
+  return up.direction.isZero() ? std::nullopt
+                               : std::make_optional(std::atan2(-up.direction.y(), up.direction.z()) * 360 / pi);
 }
 
 namespace

@@ -65,8 +65,10 @@ struct DGTKDOCUMENT_EXPORT ScenePlaces
 
 constexpr int usualImageSize[2] = { 640, 480 }; ///< pixels, of a camera that has none
 constexpr int largestImage = 1 << 20;           ///< pixels a side
-/// The vertical field of view, degrees, of a camera with a matrix K.
-DGTKDOCUMENT_EXPORT double fieldOfViewOf(const CameraDescription& camera);
+/// The vertical field of view, degrees, of a camera with a matrix K, by its model: the angle between the middles of the
+/// upper and the lower side were the principal point in the middle, without the distortion; 180 and more of lenses that
+/// see so much. Nothing where the lens does not see those places. Parameters with keys are those of frame 0.
+DGTKDOCUMENT_EXPORT std::optional<double> fieldOfViewOf(const CameraDescription& camera);
 
 /// A scale of 0 is no error: what it flattens has a place, too.
 DGTKDOCUMENT_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models, double frame);

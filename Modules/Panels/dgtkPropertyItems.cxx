@@ -6,7 +6,6 @@
 #include "dgtkNumberRow.h"
 #include "dgtkScenePlaces.h"
 
-#include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
 
@@ -23,33 +22,68 @@ namespace
 {
 constexpr double squareness = 1e-12; // ratio of a pixel's sides that rounding may change
 
-/// What the field of view says, as a matrix of the camera's own size. Throws std::runtime_error for one with keys.
+[[noreturn]] void refuse(const QString& why) { throw std::runtime_error(why.toStdString()); }
+
+/// A matrix stays where numbers of the lens move; what a field of view says goes with them.
+void requireStillLens(const CameraDescription& camera)
+{
+  for (const auto& [name, value] : camera.parameters)
+  {
+    if (std::any_of(value.numbers.begin(), value.numbers.end(), [](const auto& number) { return number.animated(); }))
+    {
+      refuse(PropertiesPanel::tr("%1 has key frames, so a matrix and a field of view do not say the same: remove them "
+                                 "first.")
+               .arg(toText(name)));
+    }
+  }
+}
+
+Eigen::Matrix3d matrixOf(const CameraDescription& camera, int frame)
+{
+  return *makeCamera(camera.model, cameraParameters(camera, frame, camera.width, camera.height))->parameters().K;
+}
+
+/// What the field of view says, as a matrix of the camera's own size. Throws std::runtime_error where something moves.
 void useMatrix(CameraDescription& camera, int frame)
 {
   if (camera.fovY.animated())
   {
-    throw std::runtime_error(QCoreApplication::translate(
-      "dgtk::PropertiesPanel", "The field of view has key frames, which a matrix cannot have: remove them first.")
-                               .toStdString());
+    refuse(PropertiesPanel::tr("The field of view has key frames, which a matrix cannot have: remove them first."));
   }
+  requireStillLens(camera);
   if (camera.width <= 0 || camera.height <= 0)
   {
     camera.width = usualImageSize[0];
     camera.height = usualImageSize[1];
   }
-  camera.K = makeCamera(camera.model, cameraParameters(camera, frame, camera.width, camera.height))->parameters().K;
+  camera.K = matrixOf(camera, frame);
   camera.fovY = Track<double>{ CameraDescription().fovY.value };
   camera.aspect = 0;
 }
 
-/// What the matrix says of a pinhole, without its principal point and skew.
+/// What the matrix says, as a field of view. Throws std::runtime_error where that cannot say it.
 void useFieldOfView(CameraDescription& camera)
 {
-  const Eigen::Matrix3d& K = *camera.K;
+  constexpr double sameImage = 1e-9; // part of the image's size that rounding may move
+  constexpr double widest = 180;
+  requireStillLens(camera);
+  const Eigen::Matrix3d K = *camera.K;
+  const double angle = fieldOfViewOf(camera).value_or(widest);
+  if (angle >= widest)
+  {
+    refuse(PropertiesPanel::tr("A field of view is below 180 degrees: a wider lens needs its matrix."));
+  }
   const double ratio = K(1, 1) / K(0, 0);
-  camera.fovY = Track<double>{ fieldOfViewOf(camera) };
+  camera.fovY = Track<double>{ angle };
   camera.aspect = std::abs(ratio - 1) < squareness ? 0 : ratio * camera.width / camera.height;
   camera.K.reset();
+  if (!((matrixOf(camera, 0) - K).norm() < sameImage * (camera.width + camera.height)))
+  {
+    refuse(PropertiesPanel::tr("A field of view has its principal point in the middle of the image and no skew: set "
+                               "cx, cy to %1, %2 and the skew to 0 first.")
+             .arg(camera.width / 2.0)
+             .arg(camera.height / 2.0));
+  }
 }
 } // namespace
 

@@ -227,7 +227,7 @@ void RenderCameras::showLens()
     return;
   }
   const int frame = this->State.frame();
-  this->Fov->setValues({ byMatrix   ? fieldOfViewOf(*camera)
+  this->Fov->setValues({ byMatrix   ? fieldOfViewOf(*camera).value_or(0)
                          : parallel ? boundedAt(camera->viewHeight, frame)
                                     : boundedAt(camera->fovY, frame) });
   this->Aspect->setValues({ camera->aspect });

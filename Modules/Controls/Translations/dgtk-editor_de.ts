@@ -1845,6 +1845,18 @@
         <source>Attenuation (constant, linear, quadratic)</source>
         <translation>Abschwächung (konstant, linear, quadratisch)</translation>
     </message>
+    <message>
+        <source>%1 has key frames, so a matrix and a field of view do not say the same: remove them first.</source>
+        <translation>%1 hat Schlüsselbilder, so dass Matrix und Bildwinkel nicht dasselbe sagen: sie zuerst entfernen.</translation>
+    </message>
+    <message>
+        <source>A field of view is below 180 degrees: a wider lens needs its matrix.</source>
+        <translation>Ein Bildwinkel ist kleiner als 180 Grad: ein weiteres Objektiv braucht seine Matrix.</translation>
+    </message>
+    <message>
+        <source>A field of view has its principal point in the middle of the image and no skew: set cx, cy to %1, %2 and the skew to 0 first.</source>
+        <translation>Ein Bildwinkel hat seinen Hauptpunkt in der Bildmitte und keine Scherung: zuerst cx, cy auf %1, %2 und die Scherung auf 0 setzen.</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::ReadOut</name>

@@ -274,7 +274,7 @@ TEST(ScenePlaces, BoxesOfItemsAndFieldsOfView)
   camera.width = 640;
   camera.height = 400;
   camera.K = Eigen::Matrix3d(V(300, 200, 1).asDiagonal());
-  EXPECT_NEAR(fieldOfViewOf(camera), 90, placeTolerance);
+  EXPECT_NEAR(fieldOfViewOf(camera).value(), 90, placeTolerance);
 }
 
 TEST(ScenePlaces, SurroundingsAreAsTheSceneSays)

@@ -131,6 +131,14 @@ Size, pixels | size 100 80
   this->type("position.1", "-2");
   EXPECT_EQ(this->scene().cameras[1].position.at(0), V(1, -2, 3));
   this->choose("lens", 0);
+  EXPECT_EQ(this->Failure, "A field of view has its principal point in the middle of the image and no skew: set cx, cy "
+                           "to 50, 40 and the skew to 0 first.");
+  EXPECT_EQ(*this->scene().cameras[1].K, K);
+  EXPECT_EQ(this->field<QComboBox>("lens")->currentIndex(), 1);
+  this->type("principal.0", "50");
+  this->type("principal.1", "40");
+  this->type("skew.0", "0");
+  this->choose("lens", 0);
   ASSERT_FALSE(this->scene().cameras[1].K);
   EXPECT_NEAR(this->scene().cameras[1].fovY.at(0), 2 * std::atan(40. / 50) * 180 / pi, 1e-9);
   EXPECT_DOUBLE_EQ(this->scene().cameras[1].aspect, 0.5 * 100 / 80);
@@ -161,6 +169,89 @@ Size, pixels | size 100 80
   this->choose("lens", 1);
   EXPECT_EQ(this->Failure, "The field of view has key frames, which a matrix cannot have: remove them first.");
   EXPECT_FALSE(this->scene().cameras[1].K);
+}
+
+TEST_F(CameraProperties, LensesOfAllModelsShowTheSameEitherWay)
+{
+  struct Row
+  {
+    const char *model, *parameter;
+    std::vector<double> numbers;
+    double angle; ///< of half of 100 pixels at a focal length of 100
+  };
+  const double sphere = std::atan(0.5) + std::asin(0.25 / std::sqrt(1.25)); // sin = (cos + 1/2) / 2
+  for (const Row& row : { Row{ "pinhole", "distortion", { 0.1, 0.01, 0.02, 0.03 }, std::atan(0.5) },
+         Row{ "fisheye", "distortion", { 0.02, -0.004, 0.0006, -5e-05 }, 0.5 },
+         Row{ "omnidirectional", "xi", { 0.5 }, sphere }, Row{ "double-sphere", "xi", { 0.2 }, 0 },
+         Row{ "eucm", "alpha", { 0.6 }, 0 } })
+  {
+    this->State->document().edit("Model",
+      [&](SceneDescription& scene)
+      {
+        CameraDescription& camera = scene.cameras[1];
+        camera.model = row.model;
+        camera.parameters.clear();
+        camera.parameters[row.parameter].numbers.assign(row.numbers.begin(), row.numbers.end());
+        camera.width = 120;
+        camera.height = 100;
+        camera.K = Eigen::Matrix3d::Identity();
+        *camera.K << 80, 0, 60, 0, 100, 50, 0, 0, 1;
+      });
+    this->select(Kind::Camera, 1);
+    const Eigen::Matrix3d K = *this->scene().cameras[1].K;
+    this->choose("lens", 0);
+    ASSERT_FALSE(this->scene().cameras[1].K) << row.model << ' ' << this->Failure;
+    if (row.angle > 0)
+    {
+      EXPECT_NEAR(this->scene().cameras[1].fovY.value, 2 * row.angle * 180 / pi, 1e-9) << row.model;
+    }
+    this->choose("lens", 1);
+    ASSERT_TRUE(this->scene().cameras[1].K) << row.model;
+    EXPECT_LT((*this->scene().cameras[1].K - K).norm(), 1e-9) << row.model << '\n' << *this->scene().cameras[1].K;
+  }
+}
+
+TEST_F(CameraProperties, WhatAFieldOfViewCannotSayStaysAMatrix)
+{
+  const auto refusalOf = [this](const std::function<void(CameraDescription&)>& change, int lens)
+  {
+    this->State->document().edit("Lens",
+      [&](SceneDescription& scene)
+      {
+        CameraDescription& camera = scene.cameras[1];
+        camera.model = "fisheye";
+        camera.width = camera.height = 640;
+        camera.K = Eigen::Matrix3d(V(175, 175, 1).asDiagonal());
+        camera.K->topRightCorner<2, 1>().setConstant(320);
+        change(camera);
+      });
+    this->select(Kind::Camera, 1);
+    const std::string before = toJson(this->scene(), "");
+    this->Failure.clear();
+    this->choose("lens", lens);
+    EXPECT_EQ(toJson(this->scene(), ""), before);
+    return this->Failure;
+  };
+  const std::string wide = "A field of view is below 180 degrees: a wider lens needs its matrix.";
+  EXPECT_EQ(refusalOf([](CameraDescription&) {}, 0), wide);
+  EXPECT_EQ(refusalOf([](CameraDescription& camera) { (*camera.K)(1, 1) = 10; }, 0), wide) << "more than all around";
+  const auto moving = [](CameraDescription& camera)
+  {
+    camera.model = "omnidirectional";
+    camera.parameters["xi"].numbers = { 1.0 };
+    camera.parameters["xi"].numbers[0].keys = { { 0, 1.0 }, { 4, 0.5 } };
+  };
+  const std::string moves =
+    "xi has key frames, so a matrix and a field of view do not say the same: remove them first.";
+  EXPECT_EQ(refusalOf(moving, 0), moves);
+  EXPECT_EQ(refusalOf(
+              [&](CameraDescription& camera)
+              {
+                moving(camera);
+                camera.K.reset();
+              },
+              1),
+    moves);
 }
 
 TEST_F(CameraProperties, ParametersOfACamerasModel)
