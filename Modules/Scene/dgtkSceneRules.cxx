@@ -29,11 +29,15 @@ std::string faultOfCameraName(const std::string& name)
 {
   static const std::set<std::string> taken{ "manifest.json", "cameras.json", "objects.json", "poses.json", "scene.json",
     "contact.png" };
+  if (taken.count(name) != 0)
+  {
+    return "a name that is not that of a file of datasets";
+  }
   const bool good = name.size() <= 128 && name.find_first_of("/\\,@:") == std::string::npos && name[0] != '.' &&
-                    name[0] != ' ' && name[0] != '-' && name.back() != ' ' && taken.count(name) == 0;
-  return good
-           ? ""
-           : "a name fit for a folder: at most 128 bytes, none of / \\ , @ :, not starting with a dot, dash or space";
+                    name[0] != ' ' && name[0] != '-' && name.back() != ' ';
+  return good ? ""
+              : "a name fit for a folder: at most 128 bytes, none of / \\ , @ :, not starting with a dot, dash or "
+                "space, not ending with a space";
 }
 
 namespace
