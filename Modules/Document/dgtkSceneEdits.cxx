@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneEdits.h"
 
+#include "dgtkPathNames.h"
 #include "dgtkUniqueNames.h"
 
 #include <array>
@@ -63,7 +64,9 @@ std::string moved(const std::string& path, const SceneDescription& from, const S
   {
     return path;
   }
-  return fs::path(from.resolve(path)).lexically_relative(to.folder.empty() ? "." : to.folder).generic_string();
+  const fs::path file = from.resolve(path);
+  const fs::path folder = PathNames().relative(file.parent_path().string(), to.folder);
+  return (folder / file.filename()).lexically_normal().generic_string();
 }
 
 void movePaths(ObjectDescription& object, const SceneDescription& from, const SceneDescription& to)

@@ -336,7 +336,7 @@ TEST(SceneEditTables, PathsMoveBetweenFolders)
   };
   EXPECT_EQ(pathsIn("/scenes/one"), (Strings{ "models/m.ac", "t.png", "/n.png", "", "../m.png", "e.png", "o.png" }));
   EXPECT_EQ(pathsIn("/scenes/two"),
-    (Strings{ "../one/models/m.ac", "../one/t.png", "/n.png", "", "../one/../m.png", "../one/e.png", "../one/o.png" }));
+    (Strings{ "../one/models/m.ac", "../one/t.png", "/n.png", "", "../m.png", "../one/e.png", "../one/o.png" }));
 }
 
 TEST(SceneEditTables, NamesAndPlacesOfEveryKind)

@@ -281,6 +281,8 @@ TEST(SceneEdits, PastedElsewhereModelsAreStillFound)
   document.paste("Paste", house);
   const std::string file = document.scene().resolve(document.scene().objects.front().model);
   EXPECT_TRUE(std::filesystem::equivalent(file, sourceFile("Data/Models/house.ac"))) << file;
+  const std::filesystem::path model = document.scene().objects.front().model;
+  EXPECT_EQ(model, model.lexically_normal()) << "nothing leads into a folder and out again";
 }
 
 /// A smooth curve with keys of 1, 0 and 0 is at -1/16 between the last two; what has a range stays at 0.
