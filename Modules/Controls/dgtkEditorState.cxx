@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkEditorState.h"
 
+#include "dgtkError.h"
+#include "dgtkUtf8.h"
+
 #include <algorithm>
 #include <exception>
 #include <map>
@@ -9,6 +12,18 @@
 
 namespace dgtk
 {
+
+namespace
+{
+/// What is wrong with the scene itself: a line of its file says nothing of the scene as it is edited.
+std::string withoutPlace(const InputError& error, const std::string& title)
+{
+  const std::string what = error.what();
+  const std::string line = error.line() >= 1 ? ':' + std::to_string(error.line()) : std::string();
+  const std::string place = printable(title) + line + ": ";
+  return error.file() == title && what.rfind(place, 0) == 0 ? what.substr(place.size()) : what;
+}
+} // namespace
 
 EditorState::EditorState(QObject* parent)
   : QObject(parent)
@@ -111,6 +126,10 @@ bool EditorState::attempt(const std::function<void()>& edit)
   catch (const std::bad_alloc&)
   {
     emit this->failed(tr("The memory of this machine is not enough."));
+  }
+  catch (const InputError& error)
+  {
+    emit this->failed(toText(withoutPlace(error, this->scene().title())));
   }
   catch (const std::exception& error)
   {

@@ -161,6 +161,7 @@ void PropertiesPanel::buildCamera(std::size_t index)
 {
   const CameraDescription& now = this->State.scene().cameras[index];
   const auto camera = [index](SceneDescription& scene) -> CameraDescription& { return scene.cameras[index]; };
+  this->addLine(tr("Model"), toText(now.model));
   using Vectors = Track<Eigen::Vector3d>;
   if (now.posed)
   {

@@ -73,7 +73,7 @@ std::vector<std::string> SceneTree::listing() const
   }
   for (const CameraDescription& camera : scene.cameras)
   {
-    lines.push_back("c" + camera.name);
+    lines.push_back("c" + camera.name + '\n' + camera.model);
   }
   return lines;
 }
@@ -97,13 +97,17 @@ void SceneTree::refresh()
   const QStringList lightNames = lightKindNames();
   for (const SceneItem& item : scene.items())
   {
-    QString kind = tr("camera");
-    if (item.kind == SceneItem::Kind::Object)
+    QString kind;
+    if (item.kind == SceneItem::Kind::Camera)
+    {
+      kind = toText(scene.cameras[item.index].model);
+    }
+    else if (item.kind == SceneItem::Kind::Object)
     {
       const ObjectDescription& object = scene.objects[item.index];
       kind = isEver(object.visible) ? toText(object.className) : tr("hidden");
     }
-    else if (item.kind == SceneItem::Kind::Light)
+    else
     {
       kind = lightNames[lightKindPlace(scene.lights[item.index].kind)];
     }

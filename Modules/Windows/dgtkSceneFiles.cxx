@@ -145,12 +145,12 @@ bool SceneFiles::openFile(const QString& path)
       {
         loaded->scene = SceneDocument::read(file, progress);
       }
-      catch (const InputError&)
+      catch (const InputError& error)
       {
         loaded->random = isRandomScene(file);
         if (!loaded->random)
         {
-          throw;
+          throw std::runtime_error(error.what()); // with its line, also where the scene that is open is read again
         }
       }
       if (loaded->scene)

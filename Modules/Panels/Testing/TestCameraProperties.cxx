@@ -40,6 +40,7 @@ TEST_F(CameraProperties, RowsOfCameras)
 {
   this->select(Kind::Camera, 0);
   EXPECT_EQ(this->rows(), R"(Name | name eye
+Model | pinhole
 Eye, m | eye 0 -5 1
 Look at, m | lookAt 0 0 1
 Up | up 0 0 1
@@ -74,6 +75,7 @@ Size, pixels | size 640 480
   EXPECT_EQ(toJson(this->scene(), ""), toJson(wanted, ""));
   this->select(Kind::Camera, 2);
   EXPECT_EQ(this->rows(), R"(Name | name flat
+Model | orthographic
 Eye, m | eye 0 -5 1
 Look at, m | lookAt 0 0 1
 Up | up 0 0 1
@@ -84,6 +86,19 @@ Size, pixels | size 0 0
 )");
   this->type("viewHeight.0", "9");
   EXPECT_EQ(this->scene().cameras[2].viewHeight.at(0), 9);
+}
+
+TEST_F(CameraProperties, ARefusalNamesNoLineOfTheFile)
+{
+  this->select(Kind::Camera, 0);
+  this->type("far.0", "0.1");
+  EXPECT_EQ(this->Failure.rfind("camera 'eye': ", 0), 0u) << this->Failure;
+  EXPECT_EQ(this->scene().cameras[0].far, 50);
+  this->State->document().clear();
+  this->State->document().addCamera({});
+  this->select(Kind::Camera, 0);
+  this->type("far.0", "-1");
+  EXPECT_EQ(this->Failure.rfind("camera 'Camera0': ", 0), 0u) << this->Failure;
 }
 
 TEST_F(CameraProperties, SizesAreGivenWhole)
@@ -108,6 +123,7 @@ TEST_F(CameraProperties, LensesByAngleAndByMatrix)
 {
   this->select(Kind::Camera, 1);
   EXPECT_EQ(this->rows(), R"(Name | name posed
+Model | pinhole
 Position, m | position 1 2 3
 Rotation, ° | rotation 0 0 0
 Quaternion | orientation 1 0 0 0
@@ -272,6 +288,7 @@ TEST_F(CameraProperties, ParametersOfACamerasModel)
   this->select(Kind::Camera, 3);
   this->State->setFrame(2);
   EXPECT_EQ(this->rows(), R"(Name | name own
+Model | panels
 Eye, m | eye 0 -5 1
 Look at, m | lookAt 0 0 1
 Up | up 0 0 1

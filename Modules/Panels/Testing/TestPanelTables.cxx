@@ -144,21 +144,24 @@ TEST_F(PanelTables, TheTreeOfAScene)
   EXPECT_EQ(textOf(tree), "Objects:\nLights:\nCameras:\n");
   state.document().open(folder.path("s.json"));
   EXPECT_EQ(
-    textOf(tree), "Objects: a/box b/hidden c/missing!\nLights: sun/directional lamp/point\nCameras: eye/camera\n");
+    textOf(tree), "Objects: a/box b/hidden c/missing!\nLights: sun/directional lamp/point\nCameras: eye/pinhole\n");
   EXPECT_TRUE(tree.topLevelItem(0)->child(2)->toolTip(0).contains("lost.ac"));
   state.select({ { SceneItem::Kind::Object, 1 }, { SceneItem::Kind::Camera, 0 } });
   EXPECT_EQ(
-    textOf(tree), "Objects: a/box b/hidden* c/missing!\nLights: sun/directional lamp/point\nCameras: eye/camera*\n");
+    textOf(tree), "Objects: a/box b/hidden* c/missing!\nLights: sun/directional lamp/point\nCameras: eye/pinhole*\n");
   state.select({ { SceneItem::Kind::Object, 0 }, { SceneItem::Kind::Object, 1 }, { SceneItem::Kind::Light, 1 } });
   EXPECT_EQ(
-    textOf(tree), "Objects: a/box* b/hidden* c/missing!\nLights: sun/directional lamp/point*\nCameras: eye/camera\n");
+    textOf(tree), "Objects: a/box* b/hidden* c/missing!\nLights: sun/directional lamp/point*\nCameras: eye/pinhole\n");
   tree.clearSelection();
   EXPECT_TRUE(state.selection().empty());
   tree.topLevelItem(1)->child(0)->setSelected(true);
   EXPECT_EQ(state.selection(), (SceneItems{ { SceneItem::Kind::Light, 0 } }));
   // What changes in the scene is seen; a name that is typed is an edit.
   state.document().edit("Class", [](SceneDescription& scene) { scene.objects[1].visible = true; });
-  EXPECT_EQ(textOf(tree), "Objects: a/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/camera\n");
+  EXPECT_EQ(textOf(tree), "Objects: a/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/pinhole\n");
+  state.document().edit("Model", [](SceneDescription& scene) { scene.cameras[0].model = "equirectangular"; });
+  EXPECT_NE(textOf(tree).find("Cameras: eye/equirectangular\n"), std::string::npos) << textOf(tree);
+  state.document().undo();
   tree.topLevelItem(0)->child(0)->setText(0, "renamed");
   QApplication::processEvents();
   EXPECT_EQ(state.document().undoText(), "Rename");
@@ -170,7 +173,7 @@ TEST_F(PanelTables, TheTreeOfAScene)
   EXPECT_FALSE(failure.empty()) << "it is taken";
   EXPECT_EQ(state.scene().objects[1].name, "b");
   EXPECT_EQ(
-    textOf(tree), "Objects: renamed/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/camera\n");
+    textOf(tree), "Objects: renamed/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/pinhole\n");
 }
 
 TEST_F(PanelTables, ANameThatIsBeingTypedIsTakenBeforeOtherThings)
@@ -203,7 +206,7 @@ TEST_F(PanelTables, ANameThatIsBeingTypedIsTakenBeforeOtherThings)
   state.document().undo();
   EXPECT_EQ(state.scene().cameras[0].name, "eye") << "one step";
   QApplication::processEvents();
-  EXPECT_EQ(textOf(tree), "Objects:\nLights:\nCameras: eye/camera other/camera\n");
+  EXPECT_EQ(textOf(tree), "Objects:\nLights:\nCameras: eye/pinhole other/pinhole\n");
 }
 
 /// What a dialog of camera arrays adds, or why not.
