@@ -24,6 +24,46 @@
 namespace dgtk
 {
 
+namespace
+{
+bool isSame(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return (a.array() == b.array() || (a.array().isNaN() && b.array().isNaN())).all();
+}
+
+/// Nothing where the scene has no such view.
+std::optional<MatchView> viewIn(const SceneDescription& scene, const SparseView& view)
+{
+  for (const CameraDescription& camera : scene.cameras)
+  {
+    if (camera.name == view.camera)
+    {
+      const MatchView found{ cameraView(camera, view.frame, 0, 0, scene.folder), view.frame };
+      const CameraModel& model = *found.view.model;
+      return model.width() == view.width && model.height() == view.height ? std::make_optional(found) : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether the scene has the pair as the list has it.
+bool isStillThere(const LiveScene& scene, const MatchRow& pair)
+{
+  try
+  {
+    const std::optional<MatchView> from = viewIn(scene.description(), pair.from);
+    const std::optional<MatchView> to = viewIn(scene.description(), pair.to);
+    const LiveMatch now = from && to ? liveMatch(scene, *from, pair.match.from, *to) : LiveMatch();
+    return from && to && isSame(now.to.pixel, pair.match.to.pixel) && now.to.visibility == pair.match.to.visibility &&
+           now.hit.object == pair.match.hit.object && toText(now.object) == pair.object;
+  }
+  catch (const std::exception&) // a point outside the image, a camera without a pose
+  {
+    return false;
+  }
+}
+} // namespace
+
 MatchDialog::~MatchDialog() = default;
 
 void MatchDialog::showEvent(QShowEvent* event)
@@ -77,6 +117,7 @@ void MatchDialog::refresh()
     this->showView(0);
     this->showView(1);
     this->refreshButtons();
+    this->checkPairs();
   }
 }
 
@@ -293,6 +334,35 @@ void MatchDialog::showPair(int row)
   this->Centers->setChecked(false);
   this->pick(side, pair.match.from);
   this->Centers->setChecked(centers);
+}
+
+void MatchDialog::checkPairs()
+{
+  const std::size_t check = ++this->Checks;
+  if (!this->Scene || this->Table->pairs().empty())
+  {
+    return;
+  }
+  this->Checker.start(
+    [this, check, scene = this->Scene, pairs = this->Table->pairs()](const NewestTask::Outdated& outdated)
+    {
+      std::vector<bool> marks;
+      for (auto pair = pairs.begin(); pair != pairs.end() && !outdated(); ++pair)
+      {
+        marks.push_back(!isStillThere(*scene, *pair));
+      }
+      const auto show = [this, check, marks]
+      {
+        if (check == this->Checks)
+        {
+          this->Table->mark(marks);
+        }
+      };
+      if (marks.size() == pairs.size())
+      {
+        QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
+      }
+    });
 }
 
 void MatchDialog::swapSides()

@@ -81,6 +81,8 @@ private:
   void showMatch();
   void showMarks();
   void showPair(int row);
+  /// Marks the pairs that the scene has otherwise by now.
+  void checkPairs();
   void addPair();
   void askOpen();
   bool askSave();
@@ -99,7 +101,9 @@ private:
   std::optional<LiveMatch> Match; ///< of the active point
   bool Changed = true;            ///< the scene, since it was shown
   std::size_t Opened = 0;         ///< SceneDocument::opened() of it
-  NewestTask Matcher;             ///< last: its thread ends first
+  std::size_t Checks = 0;         ///< of the list
+  NewestTask Checker;
+  NewestTask Matcher; ///< last: its thread ends first
 };
 
 } // namespace dgtk

@@ -257,6 +257,7 @@ QWidget* MatchDialog::makePairs()
     {
       this->showMarks();
       this->refreshButtons();
+      this->checkPairs();
     });
   connect(this->Table, &QTableWidget::itemSelectionChanged, this, &MatchDialog::refreshButtons);
   connect(this->Table, &QTableWidget::cellClicked, this, [this](int pair) { this->showPair(pair); });
@@ -382,8 +383,13 @@ void MatchDialog::addPair()
       { return other.from == pair.from && other.to == pair.to && other.match.from == pair.match.from; });
     if (same != pairs.end())
     {
-      this->Table->selectRow(int(same - pairs.begin())); // it is there already
-      return;
+      const int row = int(same - pairs.begin());
+      this->Table->selectRow(row); // it is there already
+      if (!this->Table->isMarked(row))
+      {
+        return;
+      }
+      this->Table->removeSelected();
     }
     this->Table->add({ pair });
   }

@@ -7,6 +7,7 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QPainter>
+#include <QStyle>
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +158,31 @@ void MatchTable::add(const std::vector<MatchRow>& pairs)
   }
   this->take(std::move(step));
 }
+
+void MatchTable::mark(const std::vector<bool>& outdated)
+{
+  bool changed = false;
+  for (int row = 0; row < this->rowCount(); ++row)
+  {
+    if (outdated[std::size_t(row)] != this->isMarked(row))
+    {
+      this->fill(row, this->Pairs[std::size_t(row)]);
+      changed = true;
+      QTableWidgetItem* const first = this->item(row, 0);
+      if (outdated[std::size_t(row)])
+      {
+        first->setIcon(this->style()->standardIcon(QStyle::SP_MessageBoxWarning));
+        first->setToolTip(tr("The scene does not have this pair now. Click it, then Add pair, to find it again."));
+      }
+    }
+  }
+  if (changed)
+  {
+    this->resizeColumnToContents(0); // the signs need room
+  }
+}
+
+bool MatchTable::isMarked(int row) const { return !this->item(row, 0)->icon().isNull(); }
 
 void MatchTable::removeSelected()
 {

@@ -34,6 +34,9 @@ public:
 
   const std::vector<MatchRow>& pairs() const { return this->Pairs; }
   void add(const std::vector<MatchRow>& pairs);
+  /// Marks the pairs (one each) that the scene does not have so any more; they stay what they are.
+  void mark(const std::vector<bool>& outdated);
+  bool isMarked(int row) const;
   void removeSelected();
   void clearAll();
   /// Also what could be undone.

@@ -175,6 +175,46 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
   QCOMPARE(table->rowCount(), 0);
 }
 
+void TestEditorTruth::pairsOfAChangedSceneAreMarked()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  QWidget* const dialog = this->openMatches();
+  auto* add = dialog->findChild<QPushButton*>("addPair");
+  auto* table = dialog->findChild<QTableWidget*>("matchTable");
+  for (const QPointF& point : { QPointF(330, 250), QPointF(200, 330), QPointF(3, 260) })
+  {
+    this->clickMatch(dialog, 0, point);
+    QTest::mouseClick(add, Qt::LeftButton);
+  }
+  QCOMPARE(table->rowCount(), 3);
+  const auto isMarked = [table](int row) { return !table->item(row, 0)->icon().isNull(); };
+  const auto isAny = [&] { return isMarked(0) || isMarked(1) || isMarked(2); };
+  QTest::qWait(settle);
+  QVERIFY(!isAny());
+  // An object that is renamed is another's in the rows that have it, and in no other.
+  const QString name = table->item(0, 7)->text();
+  this->select(qPrintable(name));
+  this->type("name", "renamed");
+  QTRY_VERIFY(isMarked(0));
+  QVERIFY(table->item(0, 0)->toolTip().contains("Add pair"));
+  for (int row = 1; row < 3; ++row)
+  {
+    QCOMPARE(isMarked(row), table->item(row, 7)->text() == name);
+  }
+  const QRect cell = table->visualItemRect(table->item(0, 1));
+  QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, cell.center());
+  QTRY_VERIFY(add->isEnabled());
+  QTest::mouseClick(add, Qt::LeftButton); // found anew
+  QCOMPARE(table->rowCount(), 3);
+  QCOMPARE(table->item(2, 7)->text(), QString("renamed"));
+  this->action("undo")->trigger();
+  QTRY_VERIFY(isMarked(2) && !isMarked(0) && !isMarked(1));
+  // Without their camera all are.
+  this->select("right");
+  this->action("delete")->trigger();
+  QTRY_VERIFY(isMarked(0) && isMarked(1) && isMarked(2));
+}
+
 void TestEditorTruth::manyPairsOpenAtOnce()
 {
   QVERIFY(this->Window->openFile(this->copyOfDemo()));

@@ -38,6 +38,7 @@ private slots:
   void pairsAreThoseOfTheCommandLine();
   void selectedCamerasAreMatched();
   void pairsAreUndone();
+  void pairsOfAChangedSceneAreMarked();
   void manyPairsOpenAtOnce();
   void panesZoomAndPan();
   void aStereoPairWithGroundTruth();
