@@ -157,9 +157,11 @@ bool MainWindow::mayLeaveRun()
   {
     return true;
   }
-  QMessageBox box(QMessageBox::Question, tr("DGTk"),
-    tr("A dataset is being rendered. %1").arg(this->Rendering->pictures()), QMessageBox::NoButton, this);
+  const auto question = [this] { return tr("A dataset is being rendered. %1").arg(this->Rendering->pictures()); };
+  QMessageBox box(QMessageBox::Question, tr("DGTk"), question(), QMessageBox::NoButton, this);
   box.setObjectName("runningBox");
+  connect(this->Rendering, &RenderDialog::progressed, &box, [&] { box.setText(question()); });
+  connect(this->Rendering, &RenderDialog::ended, &box, &QDialog::reject); // the window shows how, and stays
   box.setInformativeText(tr("In the background it goes on without this window, and the next start shows it again. "
                             "Stopped, it can go on later."));
   QPushButton* const goOn = box.addButton(tr("Go on in the &background"), QMessageBox::AcceptRole);

@@ -237,6 +237,26 @@ void TestEditorRuns::quittingAsks()
   QVERIFY2(this->Window->close(), "nothing is asked when nothing is rendered");
 }
 
+void TestEditorRuns::theQuestionGoesWithTheRun()
+{
+  this->prepare();
+  this->startHeld();
+  QString first;
+  QString last;
+  answer<QMessageBox>("runningBox",
+    [&](QMessageBox& box)
+    {
+      first = box.text();
+      letGo();
+      QTRY_VERIFY((last = box.isVisible() ? box.text() : last, !box.isVisible()));
+    });
+  QVERIFY2(!this->Window->close(), "how the run has ended is to be seen");
+  QVERIFY(this->Window->isVisible());
+  QVERIFY2(last != first, qPrintable(last)); // it has counted on
+  this->finishes();
+  QVERIFY2(this->Window->close(), "nothing is asked any more");
+}
+
 void TestEditorRuns::aRunOutlivesItsEditor_data()
 {
   QTest::addColumn<int>("end");

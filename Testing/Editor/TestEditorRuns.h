@@ -20,6 +20,7 @@ protected:
 
 private slots:
   void quittingAsks();
+  void theQuestionGoesWithTheRun();
   void aRunOutlivesItsEditor_data();
   void aRunOutlivesItsEditor();
   void aKilledRunGoesOn_data();
