@@ -75,6 +75,27 @@ void MainWindow::rename()
   }
 }
 
+void MainWindow::remove()
+{
+  const SceneDescription& scene = this->State->scene();
+  const SceneItems family = withChildren(scene, this->State->selection()); // those that hang on it are the last ones
+  QStringList hanging;
+  for (std::size_t i = this->State->selection().size(); i < family.size(); ++i)
+  {
+    hanging << toText(itemName(scene, family[i]));
+  }
+  const std::size_t before = scene.objects.size();
+  this->State->remove();
+  const std::size_t gone = before - this->State->scene().objects.size();
+  if (gone != 0 && !hanging.isEmpty())
+  {
+    constexpr int mostNamed = 20;
+    const QString more = hanging.size() > mostNamed ? QStringLiteral(", ...") : QString();
+    this->note(tr("%1 objects deleted, among them what hangs on what was selected: %2")
+                 .arg(QString::number(gone), QStringList(hanging.mid(0, mostNamed)).join(", ") + more));
+  }
+}
+
 void MainWindow::showProperties()
 {
   auto* dock = this->findChild<QDockWidget*>("propertiesDock");

@@ -139,7 +139,7 @@ void MainWindow::makeEditMenu()
   connect(add("paste", tr("&Paste"), QKeySequence::Paste), &QAction::triggered, state, &EditorState::paste);
   connect(
     add("duplicate", tr("Dup&licate"), QKeySequence("Ctrl+D")), &QAction::triggered, state, &EditorState::duplicate);
-  connect(add("delete", tr("&Delete"), QKeySequence::Delete), &QAction::triggered, state, &EditorState::remove);
+  connect(add("delete", tr("&Delete"), QKeySequence::Delete), &QAction::triggered, this, &MainWindow::remove);
   menu->addSeparator();
   connect(
     add("selectAll", tr("Select &all"), QKeySequence::SelectAll), &QAction::triggered, state, &EditorState::selectAll);
@@ -211,14 +211,19 @@ void MainWindow::makeHelpMenu()
     {
       QMessageBox::information(this, tr("Mouse and keys"),
         tr("<p>Click: select; with Ctrl: add. Drag what is selected: move it in the view's plane. Drag its handles: "
-           "move, "
-           "rotate or scale it (1, 2, 3).<br>"
+           "move, rotate or scale it (1, 2, 3), about its middle or its origin (O).<br>"
            "During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.<br>"
            "Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.<br>"
            "Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.</p>"
-           "<p>R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.<br>"
-           "Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.<br>"
-           "In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key.</p>"));
+           "<p>R frame all, F frame selected, W wireframe, S shaded, T textured, L the scene's light, G grid, "
+           "F11 maximise.<br>"
+           "Ctrl+1 to Ctrl+9: the perspective shows a layer, Ctrl+0: colour.<br>"
+           "Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.</p>"
+           "<p>Ctrl+Z undo, Ctrl+Shift+Z redo, Del delete, F2 rename, K make a key frame, P preview the camera, "
+           "Alt+Return properties.</p>"
+           "<p>In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key. "
+           "Alt+Left and Alt+Right move the key (with Shift the scene's, with Ctrl a copy), Shift+K removes it. "
+           "[ and ] move the start of a sequence, { and } its end.</p>"));
     });
   connect(this->addAction(menu, "about", tr("&About DGTk"), {}), &QAction::triggered, this,
     [this]

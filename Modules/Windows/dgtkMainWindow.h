@@ -101,6 +101,8 @@ private:
   void refreshItemActions();
   void showContextMenu(const QPoint& global);
   void rename();
+  /// What is selected, and says what goes with it.
+  void remove();
   void showProperties();
   void preview();
   void refresh();

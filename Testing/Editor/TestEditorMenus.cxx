@@ -13,7 +13,9 @@
 #include <QMap>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPlainTextEdit>
 #include <QPointer>
+#include <QRegularExpression>
 #include <QStatusBar>
 #include <QTest>
 
@@ -254,6 +256,56 @@ void TestEditorMenus::everyMenuItemWorks()
   QVERIFY(this->Window->isVisible());
   this->action("exit")->trigger();
   QVERIFY(!this->Window->isVisible());
+}
+
+/// Those of the window that are no letter with Ctrl, which the menus show where one looks for it.
+void TestEditorMenus::helpNamesTheKeys()
+{
+  QStringList keys{ "Ctrl+Z", "Ctrl+Shift+Z", "Ctrl+0", "Ctrl+9", "[", "]", "{", "}", "Shift+K", "Space" };
+  for (const QPointer<QAction>& item : this->menuItems())
+  {
+    const QString key = item->shortcut().toString();
+    if (!key.isEmpty() && !key.startsWith("Ctrl") && key != "F1")
+    {
+      keys << key;
+    }
+  }
+  QVERIFY2(keys.contains("L") && keys.contains("Alt+Return") && keys.contains("Del"), qPrintable(keys.join(' ')));
+  answer<QMessageBox>({},
+    [&](QMessageBox& box)
+    {
+      const QStringList words = box.text().split(QRegularExpression("[ ,.:;()<>]|br|/p"), Qt::SkipEmptyParts);
+      for (const QString& key : keys)
+      {
+        QVERIFY2(words.contains(key), qPrintable(key));
+      }
+      box.accept();
+    });
+  this->action("mouse")->trigger();
+}
+
+void TestEditorMenus::whatIsDeletedWithAnObjectIsNamed()
+{
+  QVERIFY(this->Window->openFile(QString::fromStdString(dgtk::test::sourceFile("Data/Scenes/parenting.json"))));
+  const auto* const log = this->Window->findChild<QPlainTextEdit*>("log");
+  const QString before = log->toPlainText();
+  this->select("floor");
+  this->action("delete")->trigger();
+  QCOMPARE(log->toPlainText(), before);
+  this->select("turntable");
+  this->action("delete")->trigger();
+  const QString line = "7 objects deleted, among them what hangs on what was selected: axle, table, vase, ball, "
+                       "creature, flag";
+  QCOMPARE(log->toPlainText().split('\n').last().split(": ").first(), line.split(": ").first());
+  const auto names = [](const QString& text)
+  {
+    QStringList list = text.section(": ", 1).split(", ");
+    list.sort();
+    return list;
+  };
+  QCOMPARE(names(log->toPlainText().split('\n').last()), names(line));
+  QCOMPARE(this->Window->statusBar()->currentMessage(), log->toPlainText().split('\n').last());
+  QVERIFY(this->Window->document().scene().objects.empty());
 }
 
 DGTK_EDITOR_TEST(TestEditorMenus);

@@ -18,6 +18,8 @@ private slots:
   void lettersOfMenusDiffer();
   void smallScreensHaveRoom();
   void tabStaysOnTheScreen();
+  void helpNamesTheKeys();
+  void whatIsDeletedWithAnObjectIsNamed();
 
 private:
   QList<QPointer<QAction>> menuItems() const;

@@ -1289,10 +1289,6 @@
         <translation>&amp;Licht der Szene</translation>
     </message>
     <message>
-        <source>&lt;p&gt;Click: select; with Ctrl: add. Drag what is selected: move it in the view&apos;s plane. Drag its handles: move, rotate or scale it (1, 2, 3).&lt;br&gt;During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.&lt;br&gt;Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.&lt;br&gt;Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.&lt;/p&gt;&lt;p&gt;R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.&lt;br&gt;Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.&lt;br&gt;In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key.&lt;/p&gt;</source>
-        <translation>&lt;p&gt;Klick: auswählen; mit Strg: dazunehmen. Ausgewähltes ziehen: in der Ebene der Ansicht verschieben. Griffe ziehen: verschieben, drehen oder skalieren (1, 2, 3).&lt;br&gt;Beim Ziehen: X, Y, Z halten an einer Achse fest, mit Umschalt an den beiden anderen; Strg: Stufen; Esc: wie zuvor.&lt;br&gt;Links ziehen: die Perspektive drehen, die anderen verschieben. Mitte oder Umschalt und links: verschieben.&lt;br&gt;Rechts ziehen oder Rad: zoomen. Rechtsklick: Menü. Doppelklick: eine Ansicht oder alle vier.&lt;/p&gt;&lt;p&gt;R alles zeigen, F Auswahl zeigen, W Drahtgitter, S schattiert, T mit Texturen, G Gitter, F11 maximieren.&lt;br&gt;Pfeile drehen oder verschieben die Ansicht mit dem Rahmen, mit Umschalt verschieben sie; + und - zoomen.&lt;br&gt;In der Zeitleiste: Leertaste spielt ab, Links und Rechts gehen durch die Bilder, mit Strg von Schlüssel zu Schlüssel.&lt;/p&gt;</translation>
-    </message>
-    <message>
         <source>&amp;Handles at the origin</source>
         <translation>&amp;Griffe am Ursprung</translation>
     </message>
@@ -1383,6 +1379,14 @@
     <message>
         <source>Warning: %1 has changed since it was read here. Open the scene again to see it as it is rendered.</source>
         <translation>Warnung: %1 hat sich geändert, seit es hier gelesen wurde. Öffnen Sie die Szene noch einmal, um sie so zu sehen, wie sie berechnet wird.</translation>
+    </message>
+    <message>
+        <source>%1 objects deleted, among them what hangs on what was selected: %2</source>
+        <translation>%1 Objekte gelöscht, darunter was an Ausgewähltem hängt: %2</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;Click: select; with Ctrl: add. Drag what is selected: move it in the view&apos;s plane. Drag its handles: move, rotate or scale it (1, 2, 3), about its middle or its origin (O).&lt;br&gt;During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.&lt;br&gt;Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.&lt;br&gt;Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.&lt;/p&gt;&lt;p&gt;R frame all, F frame selected, W wireframe, S shaded, T textured, L the scene&apos;s light, G grid, F11 maximise.&lt;br&gt;Ctrl+1 to Ctrl+9: the perspective shows a layer, Ctrl+0: colour.&lt;br&gt;Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.&lt;/p&gt;&lt;p&gt;Ctrl+Z undo, Ctrl+Shift+Z redo, Del delete, F2 rename, K make a key frame, P preview the camera, Alt+Return properties.&lt;/p&gt;&lt;p&gt;In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key. Alt+Left and Alt+Right move the key (with Shift the scene&apos;s, with Ctrl a copy), Shift+K removes it. [ and ] move the start of a sequence, { and } its end.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;Klick: auswählen; mit Strg: dazunehmen. Ausgewähltes ziehen: in der Ebene der Ansicht verschieben. Griffe ziehen: verschieben, drehen oder skalieren (1, 2, 3), um die Mitte oder den Ursprung (O).&lt;br&gt;Beim Ziehen: X, Y, Z halten an einer Achse fest, mit Umschalt an den beiden anderen; Strg: Stufen; Esc: wie zuvor.&lt;br&gt;Links ziehen: die Perspektive drehen, die anderen verschieben. Mitte oder Umschalt und links: verschieben.&lt;br&gt;Rechts ziehen oder Rad: zoomen. Rechtsklick: Menü. Doppelklick: eine Ansicht oder alle vier.&lt;/p&gt;&lt;p&gt;R alles zeigen, F Auswahl zeigen, W Drahtgitter, S schattiert, T mit Texturen, L Licht der Szene, G Gitter, F11 maximieren.&lt;br&gt;Strg+1 bis Strg+9: die Perspektive zeigt eine Ebene, Strg+0: Farbe.&lt;br&gt;Pfeile drehen oder verschieben die Ansicht mit dem Rahmen, mit Umschalt verschieben sie; + und - zoomen.&lt;/p&gt;&lt;p&gt;Strg+Z rückgängig, Strg+Umschalt+Z wiederholen, Entf löschen, F2 umbenennen, K Schlüsselbild setzen, P Vorschau der Kamera, Alt+Eingabe Eigenschaften.&lt;/p&gt;&lt;p&gt;In der Zeitleiste: Leertaste spielt ab, Links und Rechts gehen durch die Bilder, mit Strg von Schlüssel zu Schlüssel. Alt+Links und Alt+Rechts verschieben den Schlüssel (mit Umschalt den der Szene, mit Strg eine Kopie), Umschalt+K entfernt ihn. [ und ] verschieben den Anfang einer Sequenz, { und } ihr Ende.&lt;/p&gt;</translation>
     </message>
 </context>
 <context>
@@ -1604,6 +1608,10 @@
     <message>
         <source>Click a point of a picture, then Add pair. Open reads a list that was saved.</source>
         <translation>Einen Punkt eines Bildes anklicken, dann Paar aufnehmen. Öffnen liest eine gespeicherte Liste.</translation>
+    </message>
+    <message>
+        <source>The scene does not have this pair now. Click it, then Add pair, to find it again.</source>
+        <translation>Die Szene hat dieses Paar so nicht mehr. Anklicken, dann Paar aufnehmen, um es neu zu finden.</translation>
     </message>
 </context>
 <context>
@@ -2569,10 +2577,6 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Cameras</source>
         <translation>Kameras</translation>
-    </message>
-    <message>
-        <source>camera</source>
-        <translation>Kamera</translation>
     </message>
     <message>
         <source>hidden</source>
