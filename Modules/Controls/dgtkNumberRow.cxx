@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkNumberRow.h"
 
+#include "dgtkNumberBox.h"
 #include "dgtkText.h"
 
 #include <QApplication>
+#include <QDialog>
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QPainter>
-#include <QSpinBox>
+#include <QStatusTipEvent>
 #include <QStyle>
 #include <QStyleOptionFrame>
 
@@ -54,6 +57,30 @@ QLineEdit* lineOf(QObject* field)
   auto* const line = qobject_cast<QLineEdit*>(field);
   return line != nullptr ? line : field->findChild<QLineEdit*>();
 }
+
+/// What its field or the dialog's fields tell stands in a label.
+class Teller : public QObject
+{
+public:
+  Teller(QWidget& parent, QLabel& label)
+    : QObject(&parent)
+    , Label(label)
+  {
+  }
+  bool eventFilter(QObject* /*watched*/, QEvent* event) override
+  {
+    const QString tip = event->type() == QEvent::StatusTip ? static_cast<QStatusTipEvent*>(event)->tip() : QString();
+    if (!tip.isEmpty())
+    {
+      this->Label.setText(tip);
+      this->Label.show();
+    }
+    return !tip.isEmpty();
+  }
+
+private:
+  QLabel& Label;
+};
 
 class UndoLeft : public QObject
 {
@@ -156,13 +183,19 @@ void NumberRow::leaveField()
   }
 }
 
-void NumberRow::commit()
+QString NumberRow::commit()
 {
   std::vector<double> wanted = this->Values;
+  QString fault;
   for (std::size_t i = 0; i < this->Fields.size(); ++i)
   {
-    wanted[i] = numberOf(this->Fields[i]->text()).value_or(wanted[i]);
-    this->Fields[i]->setModified(false);
+    const std::optional<double> number = numberOf(this->Fields[i]->text());
+    wanted[i] = number.value_or(wanted[i]);
+    if (!number && fault.isEmpty())
+    {
+      fault = tr("\"%1\" is no number that can be used here").arg(this->Fields[i]->text());
+    }
+    this->Fields[i]->setModified(!number && keepsWrong(*this));
   }
   const bool other = wanted != this->Values;
   this->setValues(wanted);
@@ -170,6 +203,17 @@ void NumberRow::commit()
   {
     this->Edited(wanted);
   }
+  tell(*this, fault);
+  return fault;
+}
+
+void NumberRow::forget()
+{
+  for (QLineEdit* field : this->Fields)
+  {
+    field->setModified(false);
+  }
+  this->setValues(this->Values);
 }
 
 void leaveUndo(QWidget* field)
@@ -181,9 +225,27 @@ void leaveUndo(QWidget* field)
   }
 }
 
+void tell(const QWidget& field, const QString& text)
+{
+  if (!text.isEmpty())
+  {
+    QStatusTipEvent tip(text);
+    QApplication::sendEvent(const_cast<QWidget*>(&field), &tip);
+  }
+}
+
+void tellIn(QWidget& part, QLabel& label) { part.installEventFilter(new Teller(part, label)); }
+
+bool keepsWrong(const QWidget& field) { return qobject_cast<const QDialog*>(field.window()) != nullptr; }
+
+QString rangeFault(const QString& text, const QString& least, const QString& most)
+{
+  return NumberRow::tr("\"%1\": expected a number from %2 to %3").arg(text, least, most);
+}
+
 QSpinBox* makeNumber(const QString& name, int least, int most, int value)
 {
-  auto* box = new QSpinBox;
+  auto* box = new NumberBox<QSpinBox>;
   box->setObjectName(name);
   box->setRange(least, most);
   box->setValue(value);
@@ -191,12 +253,28 @@ QSpinBox* makeNumber(const QString& name, int least, int most, int value)
   return box;
 }
 
-void commitRows(const QWidget& dialog)
+QString commitRows(const QWidget& dialog)
 {
+  QString why;
+  const auto refuse = [&why](QWidget* field, const QString& fault)
+  {
+    if (why.isEmpty() && !fault.isEmpty() && field->isEnabled())
+    {
+      why = fault;
+      field->setFocus();
+    }
+  };
   for (NumberRow* row : dialog.findChildren<NumberRow*>())
   {
-    row->commit();
+    refuse(row, row->commit());
   }
+  for (QAbstractSpinBox* box : dialog.findChildren<QAbstractSpinBox*>())
+  {
+    box->interpretText();
+    const auto* const number = dynamic_cast<const TypedNumber*>(box);
+    refuse(box, number == nullptr ? QString() : number->fault());
+  }
+  return why;
 }
 
 } // namespace dgtk

@@ -25,7 +25,8 @@ DGTKCONTROLS_EXPORT std::optional<double> numberOf(const QString& text);
 DGTKCONTROLS_EXPORT int pixelsOf(double number);
 
 /// One or more numbers side by side. What is typed is taken at Return or when the field is left; a text that is no
-/// number gives way to the old value. While something is being typed, other values do not take its place.
+/// number is told, and gives way to the old value; in a dialog it stays, for commitRows(). While something is being
+/// typed, other values do not take its place.
 class DGTKCONTROLS_EXPORT NumberRow : public QWidget
 {
   Q_OBJECT
@@ -37,8 +38,10 @@ public:
 
   /// All numbers are taken at once, at Return or when the row is left: for those that make sense together only.
   void takeTogether() { this->Together = true; }
-  /// Takes what is typed now.
-  void commit();
+  /// Takes what is typed now. What is wrong with a text that is no number, or "".
+  QString commit();
+  /// What is typed is forgotten.
+  void forget();
   void setValues(const std::vector<double>& values);
   const std::vector<double>& values() const { return this->Values; }
   /// Called with the new values when a field changed.
@@ -56,11 +59,12 @@ private:
 /// Undo and redo are the window's while nothing is being typed in this line or spin box.
 DGTKCONTROLS_EXPORT void leaveUndo(QWidget* field);
 
-/// A field for whole numbers; what is typed counts when it is left.
+/// A NumberBox for whole numbers; what is typed counts when it is left.
 DGTKCONTROLS_EXPORT QSpinBox* makeNumber(const QString& name, int least, int most, int value);
 
-/// What is typed in the rows of a dialog is taken.
-DGTKCONTROLS_EXPORT void commitRows(const QWidget& dialog);
+/// What is typed in the rows and number fields of a dialog, or of a part of one, is taken. Where one of those that can
+/// be used has no number that it can take: why, and the field has the focus; otherwise "".
+[[nodiscard]] DGTKCONTROLS_EXPORT QString commitRows(const QWidget& dialog);
 
 } // namespace dgtk
 

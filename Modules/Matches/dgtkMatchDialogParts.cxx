@@ -6,6 +6,7 @@
 #include "dgtkEditorIcons.h"
 #include "dgtkEditorLanguage.h"
 #include "dgtkMatchPane.h"
+#include "dgtkNumberBox.h"
 #include "dgtkTruthPanel.h"
 #include "dgtkWindowSize.h"
 
@@ -16,7 +17,6 @@
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QSpinBox>
 #include <QSplitter>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -105,7 +105,7 @@ QWidget* MatchDialog::makeSide(std::size_t index)
   side.camera = new QComboBox;
   side.camera->setObjectName("camera" + suffix);
   side.camera->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  side.frame = new QSpinBox;
+  side.frame = new NumberBox<QSpinBox>;
   side.frame->setObjectName("frame" + suffix);
   side.where = new QLabel;
   side.where->setObjectName("where" + suffix);
@@ -113,6 +113,7 @@ QWidget* MatchDialog::makeSide(std::size_t index)
   makeDraftLabel(side.pane);
   side.pane->setObjectName("pane" + suffix);
   side.truth = std::make_unique<LiveTruth>();
+  tellIn(*side.frame, *side.where);
   auto* camera = new QLabel(index == 0 ? tr("&Left camera") : tr("&Right camera"));
   camera->setBuddy(side.camera);
   row->addWidget(camera);

@@ -3,6 +3,7 @@
 
 #include "dgtkEditorLanguage.h"
 #include "dgtkError.h"
+#include "dgtkNumberBox.h"
 #include "dgtkVectorRows.h"
 
 #include <QComboBox>
@@ -12,7 +13,6 @@
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QRegularExpression>
-#include <QSpinBox>
 
 #include <exception>
 #include <optional>
@@ -82,7 +82,7 @@ CameraPath pathOf(const QString& text, const Eigen::Vector3d& lookAt)
 
 QSpinBox* addCount(QFormLayout* form, const QString& label, const QString& name, int most, int value)
 {
-  auto* box = new QSpinBox;
+  auto* box = new NumberBox<QSpinBox>;
   box->setObjectName(name);
   box->setRange(1, most);
   box->setValue(value);
@@ -125,6 +125,7 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const Camer
   this->Fault->setWordWrap(true);
   this->Fault->hide();
   form->addRow(this->Fault);
+  tellIn(*this, *this->Fault);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   QPushButton* const add = buttons->addButton(tr("&Add"), QDialogButtonBox::AcceptRole);
   add->setObjectName("add");
@@ -141,9 +142,12 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const Camer
 
 void CameraArrayDialog::accept()
 {
-  commitRows(*this);
   try
   {
+    if (const QString fault = commitRows(*this); !fault.isEmpty())
+    {
+      throw UsageError(fault.toStdString());
+    }
     const std::vector<CameraDescription> cameras = cameraArray(this->options());
     if (this->Adder)
     {

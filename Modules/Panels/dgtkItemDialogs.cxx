@@ -9,6 +9,7 @@
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QPushButton>
 
 #include <QCoreApplication>
@@ -36,6 +37,20 @@ QDialogButtonBox* addButtons(QDialog* dialog, QFormLayout* form)
   form->addRow(buttons);
   dialog->setMinimumWidth(380);
   return buttons;
+}
+
+/// What is typed is taken. False where something is no number, after a box that says so.
+bool takeRows(QDialog& dialog)
+{
+  const QString fault = commitRows(dialog);
+  if (!fault.isEmpty())
+  {
+    QMessageBox box(QMessageBox::Warning, QObject::tr("DGTk"), fault, QMessageBox::Ok, &dialog);
+    box.setTextFormat(Qt::PlainText);
+    box.setObjectName("errorBox");
+    box.exec();
+  }
+  return fault.isEmpty();
 }
 } // namespace
 
@@ -79,7 +94,14 @@ CameraDialog::CameraDialog(const CameraDescription& camera, QWidget* parent)
   QPushButton* const preview = buttons->addButton(tr("&Preview"), QDialogButtonBox::ActionRole);
   preview->setAutoDefault(false);
   preview->setToolTip(tr("Shows the perspective view from there"));
-  connect(preview, &QPushButton::clicked, this, &CameraDialog::previewAsked);
+  connect(preview, &QPushButton::clicked, this,
+    [this]
+    {
+      if (takeRows(*this))
+      {
+        emit this->previewAsked();
+      }
+    });
 }
 
 void CameraDialog::showLens()
@@ -100,8 +122,7 @@ void CameraDialog::showLens()
 
 void CameraDialog::accept()
 {
-  commitRows(*this);
-  if (!this->Adder || this->Adder(this->camera()))
+  if (takeRows(*this) && (!this->Adder || this->Adder(this->camera())))
   {
     QDialog::accept();
   }
@@ -183,8 +204,7 @@ const LightTraits& LightDialog::kind() const { return lightKinds()[std::size_t(t
 
 void LightDialog::accept()
 {
-  commitRows(*this);
-  if (!this->Adder || this->Adder(this->light()))
+  if (takeRows(*this) && (!this->Adder || this->Adder(this->light())))
   {
     QDialog::accept();
   }

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTimeLine.h"
 
+#include "dgtkNumberBox.h"
 #include "dgtkNumberRow.h"
 #include "dgtkTimeLineCells.h"
 
-#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QScopedValueRollback>
-#include <QSpinBox>
 #include <QStyle>
 #include <QTimer>
 #include <QToolButton>
@@ -43,13 +42,13 @@ QToolButton* TimeLine::addButton(QBoxLayout* layout, const char* name, int icon,
 void TimeLine::addFrameFields(QBoxLayout* layout)
 {
   layout->addWidget(new QLabel(tr("Frame"), this));
-  this->Frame = new QSpinBox(this);
+  this->Frame = new NumberBox<QSpinBox>(this);
   this->Frame->setObjectName("frame");
   this->Frame->setRange(0, largestFrame);
   this->Frame->setKeyboardTracking(false);
   leaveUndo(this->Frame);
   layout->addWidget(this->Frame);
-  this->Rate = new QDoubleSpinBox(this);
+  this->Rate = new NumberBox<QDoubleSpinBox>(this);
   this->Rate->setObjectName("frameRate");
   this->Rate->setDecimals(rateDecimals);
   this->Rate->setRange(slowest, fastest);

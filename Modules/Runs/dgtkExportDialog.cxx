@@ -4,6 +4,8 @@
 #include "dgtkEditorState.h"
 #include "dgtkExport.h"
 #include "dgtkExporterEntry.h"
+#include "dgtkNumberBox.h"
+#include "dgtkNumberRow.h"
 #include "dgtkOptionFields.h"
 #include "dgtkUsualFolder.h"
 #include "dgtkWindowSize.h"
@@ -151,6 +153,7 @@ void ExportDialog::makeButtons(QVBoxLayout* layout)
   this->Status->setObjectName("status");
   this->Status->setWordWrap(true);
   layout->addWidget(this->Status);
+  tellIn(*this, *this->Status);
   auto* buttons = new QHBoxLayout;
   buttons->addStretch(1);
   this->Start = new QPushButton(tr("&Start"));
@@ -209,6 +212,11 @@ void ExportDialog::start()
   if (this->Dataset->text().trimmed().isEmpty() || this->Folder->text().trimmed().isEmpty())
   {
     this->Status->setText(tr("Name the folders of the dataset and of the export."));
+    return;
+  }
+  if (const QString fault = commitRows(*this); !fault.isEmpty())
+  {
+    this->Status->setText(fault);
     return;
   }
   this->Options->remember();

@@ -81,19 +81,15 @@ RenderCameras::RenderCameras(EditorState& state, QWidget* parent)
     [this]
     {
       this->State.document().finishMerging();
+      for (NumberRow* field : { this->Fov, this->Aspect, this->Near, this->Far })
+      {
+        field->forget(); // what stayed as no number was for another camera
+      }
       this->showCamera();
     });
   connect(&state, &EditorState::changed, this, &RenderCameras::refresh);
   connect(&state, &EditorState::frameChanged, this, &RenderCameras::showCamera);
-  connect(&state, &EditorState::typingEnds, this,
-    [this]
-    {
-      commitRows(*this);
-      for (QSpinBox* size : this->Size)
-      {
-        size->interpretText();
-      }
-    });
+  connect(&state, &EditorState::typingEnds, this, [this] { (void)commitRows(*this); });
   this->refresh();
 }
 

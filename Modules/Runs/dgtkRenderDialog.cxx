@@ -3,6 +3,7 @@
 
 #include "dgtkFolderContents.h"
 #include "dgtkGenerator.h"
+#include "dgtkNumberRow.h"
 #include "dgtkOption.h"
 #include "dgtkRenderCameras.h"
 #include "dgtkRenderOptions.h"
@@ -222,6 +223,10 @@ void RenderDialog::browse()
 
 QString RenderDialog::missing() const
 {
+  if (const QString fault = commitRows(*this); !fault.isEmpty())
+  {
+    return fault;
+  }
   if (this->Cameras->count() == 0)
   {
     return tr("The scene has no camera. Add one with Tools > Add camera.");

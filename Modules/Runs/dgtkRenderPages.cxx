@@ -3,6 +3,7 @@
 
 #include "dgtkExporterEntry.h"
 #include "dgtkGenerator.h"
+#include "dgtkNumberBox.h"
 #include "dgtkNumberRow.h"
 #include "dgtkRenderCameras.h"
 #include "dgtkRenderOptions.h"
@@ -155,6 +156,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   this->Status->setObjectName("status");
   this->Status->setWordWrap(true);
   layout->addWidget(this->Status);
+  tellIn(*this, *this->Status);
 
   auto* buttons = new QHBoxLayout;
   this->Result = new QPushButton(tr("Loo&k at the result"));

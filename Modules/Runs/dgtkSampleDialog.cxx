@@ -4,6 +4,7 @@
 #include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
 #include "dgtkNewestTask.h"
+#include "dgtkNumberBox.h"
 #include "dgtkSampleWriter.h"
 #include "dgtkWindowSize.h"
 
@@ -94,11 +95,11 @@ void SampleDialog::makeFields(QVBoxLayout* layout)
   this->File = new QLabel;
   this->File->setTextFormat(Qt::PlainText);
   this->File->setObjectName("file");
-  this->Number = new QSpinBox;
+  this->Number = new NumberBox<QSpinBox>;
   this->Number->setObjectName("number");
   this->Number->setRange(0, largestSample);
   this->Number->setKeyboardTracking(false);
-  this->SeedField = new QDoubleSpinBox;
+  this->SeedField = new NumberBox<QDoubleSpinBox>;
   this->SeedField->setObjectName("seed");
   this->SeedField->setDecimals(0);
   this->SeedField->setRange(0, largestSeed);
@@ -145,6 +146,7 @@ void SampleDialog::makeLists(QVBoxLayout* layout)
   this->Status->setWordWrap(true);
   this->Status->setTextInteractionFlags(Qt::TextSelectableByMouse);
   layout->addWidget(this->Status);
+  tellIn(*this, *this->Status);
   this->Values = new QTreeWidget;
   this->Values->setObjectName("values");
   this->Values->setHeaderLabels({ tr("Parameter or random value"), tr("Drawn") });
@@ -218,6 +220,15 @@ void SampleDialog::draw()
   if (!this->isVisible()) // closed while a number was typed
   {
     return;
+  }
+  for (QAbstractSpinBox* box :
+    { static_cast<QAbstractSpinBox*>(this->Number), static_cast<QAbstractSpinBox*>(this->SeedField) })
+  {
+    if (!box->hasAcceptableInput())
+    {
+      box->interpretText(); // which tells why
+      return;
+    }
   }
   if (!this->Hooks.mayReplace())
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampleWriter.h"
 
+#include "dgtkNumberBox.h"
 #include "dgtkNumberRow.h"
 #include "dgtkOptionFields.h"
 #include "dgtkSampler.h"
@@ -100,6 +101,7 @@ void SampleWriter::makeButtons(QVBoxLayout* layout)
   this->Status->setObjectName("writerStatus");
   this->Status->setWordWrap(true);
   layout->addWidget(this->Status);
+  tellIn(*this, *this->Status);
   connect(this->Write, &QPushButton::clicked, this, &SampleWriter::start);
   connect(this->Cancel, &QPushButton::clicked, this, [this] { this->Process.cancel(); });
 }
@@ -128,6 +130,11 @@ void SampleWriter::setScene(const QString& path)
 
 void SampleWriter::start()
 {
+  if (const QString fault = commitRows(*this); !fault.isEmpty())
+  {
+    this->Status->setText(fault);
+    return;
+  }
   const QString folder = this->Folder->text().trimmed();
   if (folder.isEmpty() || this->First->value() > this->Last->value())
   {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFrameRow.h"
 
+#include "dgtkNumberBox.h"
+
 #include <QAction>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSlider>
-#include <QSpinBox>
 #include <QToolButton>
 
 namespace dgtk
@@ -17,7 +18,7 @@ FrameRow::FrameRow(const QList<QAction*>& buttons, QAction* play, std::function<
   , Ready(std::move(ready))
   , Frames(new QSlider(Qt::Horizontal, this))
   , Text(new QLabel(this))
-  , Rate(new QSpinBox(this))
+  , Rate(new NumberBox<QSpinBox>(this))
   , Loop(new QToolButton(this))
 {
   auto* layout = new QHBoxLayout(this);

@@ -3,11 +3,11 @@
 
 #include "dgtkLegendBar.h"
 #include "dgtkNameCombo.h"
+#include "dgtkNumberBox.h"
 #include "dgtkPixelText.h"
 
 #include <QHBoxLayout>
 #include <QSignalBlocker>
-#include <QSpinBox>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ PicturePane::PicturePane(int number, PictureSync& sync, QWidget* parent)
   , Sync(sync)
   , Camera(new NameCombo("camera", tr("Camera of this picture"), this))
   , Layer(new NameCombo("layer", tr("Layer of this picture"), this))
-  , Surface(new QSpinBox(this))
+  , Surface(new NumberBox<QSpinBox>(this))
   , View(new PictureView(sync, this))
   , Legend(new LegendBar(this))
 {

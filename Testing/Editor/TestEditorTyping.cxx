@@ -12,9 +12,11 @@
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTest>
 #include <QToolBar>
 #include <QTreeWidget>
@@ -201,6 +203,11 @@ void TestEditorTyping::dialogsKeepWhatIsRefused()
         QVERIFY(!dialog.isVisible());
       });
   };
+  refuseThenAdd("cameraDialog", "eye.2", "1e400", "3");
+  this->action("camera")->trigger();
+  QVERIFY2(message.contains("1e400"), qPrintable(message));
+  QCOMPARE(document.scene().cameras.at(0).eye.value.z(), 3.0);
+  this->action("undo")->trigger();
   refuseThenAdd("cameraDialog", "fovY.0", "190", "50");
   this->action("camera")->trigger();
   QCOMPARE(document.scene().cameras.at(0).name, std::string("Top"));
@@ -236,6 +243,86 @@ void TestEditorTyping::hugeSizesAreRefused()
     QVERIFY2(!message.isEmpty(), size);
     QCOMPARE(document.json(), first);
   }
+}
+
+/// In the window the old value comes back, and the status bar says why.
+void TestEditorTyping::numbersThatAreNoneAreTold()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  const dgtk::SceneDocument& document = this->Window->document();
+  const std::string first = document.json();
+  this->select("tree");
+  for (const char* text : { "1e999", " ", "12 m" })
+  {
+    this->Window->statusBar()->clearMessage();
+    this->type("position.2", text);
+    QVERIFY2(this->Window->statusBar()->currentMessage().startsWith(QString("\"%1\"").arg(text)),
+      qPrintable(this->Window->statusBar()->currentMessage()));
+    QCOMPARE(this->field("position.2")->text(), QString("-3.4"));
+  }
+  for (const auto& [name, text] : { std::pair("frame", "-5"), std::pair("frame", "99999999999"),
+         std::pair("frameRate", "-5"), std::pair("frameRate", "fast") })
+  {
+    auto* const box = this->Window->findChild<QAbstractSpinBox*>(name);
+    const QString before = box->text();
+    this->Window->statusBar()->clearMessage();
+    typeInto(box, text);
+    QVERIFY2(this->Window->statusBar()->currentMessage().startsWith(QString("\"%1\"").arg(text)),
+      qPrintable(QString(name) + text + this->Window->statusBar()->currentMessage()));
+    QCOMPARE(box->text(), before);
+  }
+  QCOMPARE(document.json(), first);
+}
+
+/// A number that an option cannot have stays in its field, and no run begins with another one.
+void TestEditorTyping::noKeyIsDropped()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->action("render")->trigger();
+  auto* const dialog = this->Window->findChild<QDialog*>("renderDialog");
+  auto* const status = dialog->findChild<QLabel*>("status");
+  auto* const start = dialog->findChild<QPushButton*>("start");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("wrong"));
+  const auto isRefused = [&](int page, const char* name, const QString& text)
+  {
+    turnTo(*dialog, page);
+    QWidget* const box = dialog->findChild<QSpinBox*>(name);
+    auto* const line = dialog->findChild<QWidget*>(name)->findChild<QLineEdit*>();
+    QWidget* const field = box != nullptr ? box : line;
+    const QString before = line->text();
+    typeInto(field, text);
+    QCOMPARE(line->text(), text);
+    QVERIFY2(status->text().startsWith('"' + text + '"'), qPrintable(status->text()));
+    status->clear();
+    QTest::mouseClick(start, Qt::LeftButton);
+    QVERIFY2(status->text().startsWith('"' + text + '"'), qPrintable(status->text()));
+    QVERIFY(line->hasFocus() || field->hasFocus());
+    QVERIFY(start->isEnabled() && !QFile::exists(this->path("wrong")));
+    typeInto(field, before);
+    QCOMPARE(line->text(), before);
+  };
+  isRefused(3, "samples", "32");
+  isRefused(2, "frameStep", "0");
+  isRefused(2, "lastFrame", "1e3");
+  isRefused(1, "width", "-64");
+  isRefused(1, "renderFar", "1e999");
+  typeInto(dialog->findChild<QLineEdit*>("renderFar.0"), "far");
+  auto* const cameras = dialog->findChild<QListWidget*>();
+  cameras->setCurrentRow(1); // what was typed was for the other camera
+  QVERIFY(dialog->findChild<QLineEdit*>("renderFar.0")->text() != "far");
+  dialog->close();
+  answer<QDialog>("cameraArrayDialog",
+    [](QDialog& array)
+    {
+      auto* const count = array.findChild<QSpinBox*>("count");
+      typeInto(count, "20000");
+      add(array);
+      QVERIFY(array.isVisible());
+      QVERIFY(array.findChild<QLabel*>("fault")->text().startsWith("\"20000\""));
+      QCOMPARE(count->text(), QString("20000"));
+      array.reject();
+    });
+  this->action("cameraArray")->trigger();
 }
 
 /// Other rows come with other units; the field that was left last stays the one that is typed in.

@@ -16,6 +16,8 @@ private slots:
   void aRefusalComesOnce();
   void dialogsKeepWhatIsRefused();
   void hugeSizesAreRefused();
+  void numbersThatAreNoneAreTold();
+  void noKeyIsDropped();
   void unitsAreTyped();
   void everyNumberIsOfItsOwnProperty();
   void parametersOfAModelAreTyped();

@@ -1615,6 +1615,17 @@
     </message>
 </context>
 <context>
+    <name>dgtk::NumberRow</name>
+    <message>
+        <source>&quot;%1&quot; is no number that can be used here</source>
+        <translation>&quot;%1&quot; ist keine Zahl, die hier gebraucht werden kann</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot;: expected a number from %2 to %3</source>
+        <translation>&quot;%1&quot;: erwartet ist eine Zahl von %2 bis %3</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::PictureLoader</name>
     <message>
         <source>No picture of this layer here</source>
