@@ -2,8 +2,9 @@
 #include "dgtkLegendBar.h"
 
 #include "dgtkEditorLanguage.h"
+#include "dgtkNumberBox.h"
+#include "dgtkNumberRow.h"
 
-#include <QDoubleValidator>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QHelpEvent>
@@ -232,9 +233,6 @@ LegendBar::LegendBar(QWidget* parent)
     field->setToolTip(tips[end]);
     field->setAccessibleName(tips[end]);
     field->setFixedWidth(field->fontMetrics().horizontalAdvance("-0.0000e-00") + 4);
-    auto* number = new QDoubleValidator(field);
-    number->setLocale(QLocale::c());
-    field->setValidator(number);
     connect(field, &QLineEdit::editingFinished, this, &LegendBar::ask);
   }
   this->Auto->setObjectName("auto");
@@ -276,13 +274,22 @@ void LegendBar::setPicture(const ShownPointer& shown, bool chosen)
 
 void LegendBar::ask()
 {
+  for (QLineEdit* field : this->Ends)
+  {
+    if (field->isModified() && !numberOf(field->text()))
+    {
+      tell(*field, tr("\"%1\" is no number: the one before comes back").arg(field->text()));
+      field->setText(text(field == this->Ends[0] ? this->Shown.low : this->Shown.high));
+      field->setModified(false);
+    }
+  }
   if (!this->Ends[0]->isModified() && !this->Ends[1]->isModified())
   {
     return;
   }
   PictureRange range = this->Shown;
-  range.low = this->Ends[0]->isModified() ? this->Ends[0]->text().toDouble() : range.low;
-  range.high = this->Ends[1]->isModified() ? this->Ends[1]->text().toDouble() : range.high;
+  range.low = this->Ends[0]->isModified() ? *numberOf(this->Ends[0]->text()) : range.low;
+  range.high = this->Ends[1]->isModified() ? *numberOf(this->Ends[1]->text()) : range.high;
   this->Ends[0]->setModified(false);
   this->Ends[1]->setModified(false);
   if (range.low > range.high)

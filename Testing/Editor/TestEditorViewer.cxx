@@ -22,6 +22,7 @@
 #include <QRegularExpression>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTableWidget>
 #include <QToolButton>
 #include <QUrl>
@@ -337,6 +338,12 @@ void TestEditorViewer::rangesAreChosen()
   QVERIFY(this->picture(viewer, 1)->grab().toImage() != before);
   auto* const sibling = viewer->findChild<QWidget*>("pane.0");
   QCOMPARE(sibling->findChild<QLineEdit*>("high")->text(), QString("9.5")); // the same layer of another camera
+  for (const char* text : { " ", "." })
+  {
+    typeInto(high, text);
+    QCOMPARE(high->text(), QString("9.5")); // what is no number gives way, and is told
+    QVERIFY(viewer->statusBar()->currentMessage().startsWith(QString("\"%1\"").arg(text)));
+  }
   QTest::keyClick(this->picture(viewer, 1), Qt::Key_Period);
   this->waitForPictures(viewer);
   QCOMPARE(high->text(), QString("9.5"));

@@ -932,6 +932,10 @@
         <source>Colours over the range of each picture</source>
         <translation>Farben über den Bereich jedes Bildes</translation>
     </message>
+    <message>
+        <source>&quot;%1&quot; is no number: the one before comes back</source>
+        <translation>&quot;%1&quot; ist keine Zahl: die vorige kommt wieder</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::LegendStrip</name>

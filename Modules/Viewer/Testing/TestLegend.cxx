@@ -200,17 +200,27 @@ TEST_F(LegendTable, NumbersHaveAPointInEveryLanguage)
 {
   const QLocale before;
   QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
-  const LegendBar bar(nullptr);
+  LegendBar bar(nullptr);
   QLocale::setDefault(before);
+  std::vector<PictureRange> asked;
+  QObject::connect(
+    &bar, &LegendBar::rangeAsked, [&](const std::optional<PictureRange>& range) { asked.push_back(*range); });
   for (const char* const name : { "low", "high" })
   {
     auto* const field = bar.findChild<QLineEdit*>(name);
     ASSERT_TRUE(field) << name;
-    for (const auto& [text, fine] : { std::pair("2.5", true), std::pair("-1e-3", true), std::pair("2,5", false),
-           std::pair("x", false), std::pair("", false) })
+    for (const auto& [text, number] : std::vector<std::pair<const char*, std::optional<double>>>{
+           { "2.5", 2.5 }, { "-1e-3", -0.001 }, { "2,5", 2.5 }, { "x", {} }, { "", {} }, { ".", {} }, { "1e999", {} } })
     {
+      bar.setPicture(this->ramp(), false);
+      asked.clear();
+      const QString shown = field->text();
       field->setText(text);
-      EXPECT_EQ(field->hasAcceptableInput(), fine) << text;
+      field->setModified(true);
+      emit field->editingFinished();
+      EXPECT_EQ(asked.size(), number ? 1u : 0u) << text;
+      EXPECT_TRUE(!number || asked.back().low == *number || asked.back().high == *number) << text;
+      EXPECT_EQ(field->text(), number ? QString(text) : shown) << "what was there comes back";
     }
     EXPECT_FALSE(field->toolTip().isEmpty());
     EXPECT_EQ(field->accessibleName(), field->toolTip());
