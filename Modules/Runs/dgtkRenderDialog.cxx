@@ -68,7 +68,7 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->Options = new RenderOptions(this);
   this->Tabs->addTab(this->makeControls(), tr("Controls"));
   this->Tabs->addTab(this->Options, tr("Options"));
-  this->Options->setOwners(this->checkedLayers());
+  this->Options->setLayers(this->checkedLayers());
   this->Tabs->setCurrentIndex(2);
   layout->addWidget(this->Tabs, 1);
   this->makeRunRow(layout);

@@ -4,6 +4,7 @@
 #include "dgtkEditorState.h"
 #include "dgtkGenerator.h"
 
+#include <QComboBox>
 #include <QFormLayout>
 #include <QGroupBox>
 #include <QLineEdit>
@@ -17,6 +18,9 @@ namespace dgtk
 
 namespace
 {
+const QString layerOfPov = "pov"; // whose options are the renderer's, too, and begin with its name
+const QString rendererOfPov = "povray";
+
 /// Of the command line's options that are no layer's, and that no other page of the dialog has.
 const OptionRow& classFile()
 {
@@ -56,7 +60,20 @@ RenderOptions::RenderOptions(QWidget* parent)
       field.owners += has ? QStringList(toText(info.layer)) : QStringList();
     }
   }
+  for (Field& field : this->fields())
+  {
+    const bool isOfPov = field.owners.isEmpty() && toText(field.row->name).startsWith(layerOfPov + '_');
+    field.owners += isOfPov ? QStringList{ layerOfPov, rendererOfPov } : QStringList();
+  }
   area->setWidget(page);
+  connect(this->findChild<QComboBox*>("renderer"), &QComboBox::currentTextChanged, this,
+    [this] { this->setLayers(this->Layers); });
+}
+
+void RenderOptions::setLayers(const QStringList& layers)
+{
+  this->Layers = layers;
+  this->setOwners(layers + QStringList(this->findChild<QComboBox*>("renderer")->currentText()));
 }
 
 void RenderOptions::offer(const QString& name, const QString& text)

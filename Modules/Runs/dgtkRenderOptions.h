@@ -14,8 +14,13 @@ class RenderOptions : public OptionFields
 
 public:
   explicit RenderOptions(QWidget* parent);
+  /// Options that only some layers have can be chosen with one of these, those of POV-Ray where it draws, too.
+  void setLayers(const QStringList& layers);
   /// The text of an option of names, until another one is typed.
   void offer(const QString& name, const QString& text);
+
+private:
+  QStringList Layers;
 };
 
 } // namespace dgtk

@@ -68,7 +68,7 @@ QWidget* RenderDialog::makeControls()
     box->setObjectName("layer." + toText(layer.layer));
     box->setToolTip(toText(layer.description));
     box->setChecked(chosen.contains(box->text()));
-    connect(box, &QCheckBox::toggled, this, [this] { this->Options->setOwners(this->checkedLayers()); });
+    connect(box, &QCheckBox::toggled, this, [this] { this->Options->setLayers(this->checkedLayers()); });
     grid->addWidget(box, i % rows, i / rows);
     this->Layers.push_back(box);
   }

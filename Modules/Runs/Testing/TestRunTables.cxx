@@ -354,16 +354,22 @@ TEST_F(RunTables, OptionsAreWordsOfTheCommandLine)
   pairs->setText(" ");
   expectWords(all, "what is empty is not said");
   // Options of other layers are left out.
-  options.setOwners({ "depth" });
+  options.setLayers({ "depth" });
   EXPECT_TRUE(depth->isEnabled());
   EXPECT_FALSE(step->isEnabled());
-  EXPECT_TRUE(shadows->isEnabled()) << "a renderer has it, too";
+  EXPECT_FALSE(shadows->isEnabled());
   EXPECT_TRUE(samples->isEnabled());
-  expectWords({ "--samples", "4", "--filter", "mitchell", "--pov-shadows", "--depth-format", "npy,exr" }, "depth");
-  options.setOwners({ "points", "pov" });
+  expectWords({ "--samples", "4", "--filter", "mitchell", "--depth-format", "npy,exr" }, "depth");
+  auto* const renderer = options.findChild<QComboBox*>("renderer");
+  renderer->setCurrentText("povray");
+  EXPECT_TRUE(shadows->isEnabled()) << "it is the renderer's, too";
+  renderer->setCurrentText("vtk");
+  EXPECT_FALSE(shadows->isEnabled());
+  renderer->setCurrentText("ray");
+  options.setLayers({ "points", "pov" });
   expectWords({ "--samples", "4", "--filter", "mitchell", "--points-step", "2", "--pov-shadows" }, "points and pov");
-  options.setOwners({});
-  expectWords({ "--samples", "4", "--filter", "mitchell", "--pov-shadows" }, "none");
+  options.setLayers({});
+  expectWords({ "--samples", "4", "--filter", "mitchell" }, "none");
   options.offer("pairs", "left:right");
   EXPECT_EQ(pairs->text(), "left:right");
   pairs->setModified(true);
