@@ -229,6 +229,14 @@ std::map<QString, Draw> editIcons()
         p.setBrush(warm);
         p.drawPolygon(polygon({ { 12, 3 }, { 18, 9 }, { 12, 15 }, { 6, 9 } }));
       } },
+    { "removeKeyFrame",
+      [](QPainter& p)
+      {
+        p.drawPolygon(polygon({ { 9, 3 }, { 15, 9 }, { 9, 15 }, { 3, 9 } }));
+        colored(p, danger);
+        p.drawLine(QPointF(13, 13), QPointF(21, 21));
+        p.drawLine(QPointF(21, 13), QPointF(13, 21));
+      } },
     { "preview",
       [](QPainter& p)
       {

@@ -30,6 +30,7 @@ namespace dgtk
 namespace
 {
 constexpr int buttonRoom = 16; // pixels beside a button's text, at least
+constexpr int besideSide = 12; // pixels between the numbers of a view and the words of the next
 const QColor pickedColor(255, 214, 64);
 const QColor lineColor(64, 200, 255);
 const QColor pairColor(235, 235, 235);
@@ -121,6 +122,7 @@ QWidget* MatchDialog::makeSide(std::size_t index)
   row->addWidget(new QLabel(tr("Frame")));
   row->addWidget(side.frame);
   row->addWidget(side.where, 1);
+  row->setContentsMargins(0, 0, besideSide, 0);
   layout->addLayout(row);
   layout->addWidget(side.pane, 1);
   const auto show = [this, index] { this->showView(index); };

@@ -90,7 +90,8 @@ void TruthPanel::finishRows()
 void TruthPanel::forgetTruth()
 {
   this->Next = 0;
-  this->setRow(tr("Move the mouse over the perspective view."), {});
+  const QString hint = tr("Move the mouse over the perspective view.");
+  this->setRow(hint, {}, hint);
   this->topLevelItem(0)->setFirstColumnSpanned(true);
   this->finishRows();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTimeLine.h"
 
+#include "dgtkEditorIcons.h"
 #include "dgtkNumberBox.h"
 #include "dgtkNumberRow.h"
 #include "dgtkTimeLineCells.h"
@@ -25,7 +26,9 @@ constexpr int drawEvery = 10;   // milliseconds
 constexpr int rateDecimals = 3; // film and television: 23.976
 constexpr double slowest = 0.001;
 constexpr double fastest = 1e6; // the most that a scene may have
-constexpr int narrowest = 80;   // pixels of a field or button, where the window is narrow
+constexpr int narrowest = 80;   // pixels of a field, where the window is narrow
+constexpr int narrowButton = 34;
+constexpr int arrows = 34; // of a number field, with its borders
 } // namespace
 
 QToolButton* TimeLine::addButton(QBoxLayout* layout, const char* name, int icon, const QString& tip)
@@ -55,6 +58,7 @@ void TimeLine::addFrameFields(QBoxLayout* layout)
   this->Rate->setKeyboardTracking(false);
   this->Rate->setSuffix(tr(" frames/s"));
   this->Rate->setMinimumWidth(narrowest);
+  this->Rate->setMaximumWidth(this->Rate->fontMetrics().horizontalAdvance("1000.000" + this->Rate->suffix()) + arrows);
   this->Rate->setToolTip(tr("The scene's frame rate: of playing, and of the models' sequences"));
   leaveUndo(this->Rate);
   layout->addWidget(this->Rate);
@@ -68,13 +72,43 @@ void TimeLine::addFrameFields(QBoxLayout* layout)
     });
 }
 
+QPushButton* TimeLine::addKeyButton(const char* name, const char* icon, const QString& text)
+{
+  auto* button = new QPushButton(text, this);
+  button->setObjectName(name);
+  button->setMinimumWidth(narrowButton);
+  button->setToolTip(QString(text).remove('&'));
+  this->Controls->addWidget(button);
+  button->ensurePolished();
+  this->KeyButtons.push_back({ button, editorIcon(icon), text, button->sizeHint().width() });
+  return button;
+}
+
+void TimeLine::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  const QMargins margins = this->layout()->contentsMargins();
+  int needed = this->Controls->sizeHint().width() + margins.left() + margins.right();
+  for (const KeyButton& key : this->KeyButtons)
+  {
+    needed += key.width - key.button->sizeHint().width();
+  }
+  for (const KeyButton& key : this->KeyButtons)
+  {
+    key.button->setText(needed <= this->width() ? key.text : QString());
+    key.button->setIcon(needed <= this->width() ? QIcon() : key.icon);
+    key.button->setShortcut(QKeySequence::mnemonic(key.text));
+  }
+}
+
 TimeLine::TimeLine(EditorState& state, QWidget* parent)
   : QWidget(parent)
   , State(state)
   , Cells(new TimeLineCells(state, this))
   , Clock(new QTimer(this))
 {
-  auto* controls = new QHBoxLayout;
+  this->Controls = new QHBoxLayout;
+  QHBoxLayout* const controls = this->Controls;
   QToolButton* const back =
     this->addButton(controls, "previousKey", QStyle::SP_MediaSkipBackward, tr("To the key frame before (Ctrl+Left)"));
   this->Play = this->addButton(controls, "play", QStyle::SP_MediaPlay, tr("Play from this frame (Space)"));
@@ -85,16 +119,8 @@ TimeLine::TimeLine(EditorState& state, QWidget* parent)
   this->Loop->setCheckable(true);
   this->Loop->setChecked(true);
   this->addFrameFields(controls);
-  auto* make = new QPushButton(tr("Make &key frame"), this);
-  make->setObjectName("makeKeyFrame");
-  auto* remove = new QPushButton(tr("&Remove key frame"), this);
-  remove->setObjectName("removeKeyFrame");
-  for (QPushButton* const button : { make, remove })
-  {
-    button->setMinimumWidth(narrowest);
-    button->setToolTip(QString(button->text()).remove('&'));
-    controls->addWidget(button);
-  }
+  QPushButton* const make = this->addKeyButton("makeKeyFrame", "keyFrame", tr("Make &key frame"));
+  QPushButton* const remove = this->addKeyButton("removeKeyFrame", "removeKeyFrame", tr("&Remove key frame"));
   controls->addStretch(1);
 
   auto* layout = new QVBoxLayout(this);

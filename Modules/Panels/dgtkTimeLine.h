@@ -6,10 +6,15 @@
 #include "dgtkPanelsModule.h"
 
 #include <QElapsedTimer>
+#include <QIcon>
 #include <QWidget>
+
+#include <vector>
 
 class QBoxLayout;
 class QDoubleSpinBox;
+class QHBoxLayout;
+class QPushButton;
 class QSpinBox;
 class QTimer;
 class QToolButton;
@@ -28,7 +33,19 @@ class DGTKPANELS_EXPORT TimeLine : public QWidget
 public:
   TimeLine(EditorState& state, QWidget* parent);
 
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+
 private:
+  /// Has its text where the row has room for it, and an icon otherwise.
+  struct KeyButton
+  {
+    QPushButton* button;
+    QIcon icon;
+    QString text;
+    int width; ///< with its text
+  };
+  QPushButton* addKeyButton(const char* name, const char* icon, const QString& text);
   QToolButton* addButton(QBoxLayout* layout, const char* name, int icon, const QString& tip);
   void addFrameFields(QBoxLayout* layout);
   void play(bool on);
@@ -39,6 +56,8 @@ private:
   EditorState& State;
   TimeLineCells* Cells = nullptr;
   QTimer* Clock = nullptr;
+  QHBoxLayout* Controls = nullptr;
+  std::vector<KeyButton> KeyButtons;
   QElapsedTimer Playing;
   int PlayedFrom = 0;
   bool Stepping = false;

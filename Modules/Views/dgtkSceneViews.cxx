@@ -268,6 +268,22 @@ void SceneViews::saveLayout(QSettings& settings) const
   }
 }
 
+void SceneViews::resetLayout()
+{
+  for (SceneView* view : this->Views)
+  {
+    if (this->isAlone(view))
+    {
+      this->toggleMaximized(view);
+      break;
+    }
+  }
+  for (QSplitter* splitter : this->findChildren<QSplitter*>())
+  {
+    splitter->setSizes({ 1000, 1000 });
+  }
+}
+
 void SceneViews::restoreLayout(const QSettings& settings)
 {
   QByteArrayList states;

@@ -48,6 +48,8 @@ public:
   void toggleMaximized(SceneView* view);
   /// Where the splitters are, and which view is alone.
   void saveLayout(QSettings& settings) const;
+  /// All four, of the same size.
+  void resetLayout();
   void restoreLayout(const QSettings& settings);
   /// The perspective view from a camera's place.
   void lookThrough(const CameraDescription& camera);

@@ -31,6 +31,8 @@ namespace dgtk
 
 namespace
 {
+constexpr int narrowestDock = 220; // pixels, of those with fields and lists at the right
+
 /// Above the middle of the scene, aside and before it, as far as the scene is large.
 Eigen::Vector3d placeOfLight(const WorldBox& box, UpAxis up)
 {
@@ -45,19 +47,18 @@ QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& 
 {
   // The tool bar has what is used often.
   static const QStringList menuOnly{ "saveAs", "sampleScene", "exportPov", "exportDataset", "selectAll", "rename",
-    "properties" };
+    "properties", "resetLayout" };
   auto* tools = menuOnly.contains(name) ? nullptr : this->findChild<QToolBar*>("toolBar");
   QAction* const action = addNamedAction(this, menu, tools, name, text, keys);
   connect(action, &QAction::triggered, this->State, &EditorState::finishTyping); // before what the action does
   return action;
 }
 
-QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget)
+QDockWidget* MainWindow::addDock(const QString& name, const QString& title, QWidget* widget)
 {
   auto* dock = new QDockWidget(title, this);
   dock->setObjectName(name);
   dock->setWidget(widget);
-  this->addDockWidget(area, dock);
   return dock;
 }
 
@@ -65,26 +66,54 @@ void MainWindow::makeDocks()
 {
   auto* items = new SceneTree(*this->State, this);
   connect(items, &SceneTree::menuAsked, this, &MainWindow::showContextMenu);
-  QDockWidget* const tree = this->addDock(Qt::RightDockWidgetArea, "treeDock", tr("Scene"), items);
-  QDockWidget* const properties =
-    this->addDock(Qt::RightDockWidgetArea, "propertiesDock", tr("Properties"), new PropertiesPanel(*this->State, this));
+  items->setMinimumWidth(narrowestDock);
+  this->addDock("treeDock", tr("Scene"), items);
+  auto* properties = new PropertiesPanel(*this->State, this);
+  properties->setMinimumWidth(narrowestDock);
+  this->addDock("propertiesDock", tr("Properties"), properties);
   this->Truth = new TruthView(*this->State, *this->Views, this);
-  QDockWidget* const values = this->addDock(Qt::RightDockWidgetArea, "valuesDock", tr("Values"), this->Truth->panel());
-  this->tabifyDockWidget(properties, values);
-  properties->raise();
+  this->Truth->panel()->setMinimumWidth(narrowestDock);
+  QDockWidget* const values = this->addDock("valuesDock", tr("Values"), this->Truth->panel());
   connect(
     this->Truth, &TruthView::pointed, this, [this](const QString& line) { this->statusBar()->showMessage(line); });
   connect(this->Truth, &TruthView::layerChosen, values, [values] { values->raise(); });
   connect(this->Truth, &TruthView::layerChosen, this, &MainWindow::noteReplacedModels);
   connect(this->Views, &SceneViews::lookedThrough, this, &MainWindow::noteReplacedModels);
-  QDockWidget* const time =
-    this->addDock(Qt::BottomDockWidgetArea, "timeDock", tr("Time line"), new TimeLine(*this->State, this));
-  QDockWidget* const log = this->addDock(Qt::BottomDockWidgetArea, "logDock", tr("Log"), this->Log);
+  this->addDock("timeDock", tr("Time line"), new TimeLine(*this->State, this));
+  this->addDock("logDock", tr("Log"), this->Log);
   this->setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  this->arrangeDocks();
+}
+
+void MainWindow::arrangeDocks()
+{
+  const auto place = [this](Qt::DockWidgetArea area, const char* name)
+  {
+    auto* const dock = this->findChild<QDockWidget*>(name);
+    dock->setFloating(false);
+    this->addDockWidget(area, dock);
+    dock->show();
+    return dock;
+  };
+  QDockWidget* const tree = place(Qt::RightDockWidgetArea, "treeDock");
+  QDockWidget* const properties = place(Qt::RightDockWidgetArea, "propertiesDock");
+  this->tabifyDockWidget(properties, place(Qt::RightDockWidgetArea, "valuesDock"));
+  properties->raise();
+  QDockWidget* const time = place(Qt::BottomDockWidgetArea, "timeDock");
+  QDockWidget* const log = place(Qt::BottomDockWidgetArea, "logDock");
   this->resizeDocks({ tree, properties }, { 300, 420 }, Qt::Vertical);
   this->resizeDocks({ tree, properties }, { 320, 320 }, Qt::Horizontal);
-  this->resizeDocks({ time, log }, { 620, 300 }, Qt::Horizontal);
+  this->resizeDocks({ time, log }, { 700, 240 }, Qt::Horizontal);
   this->resizeDocks({ time, log }, { 200, 200 }, Qt::Vertical);
+}
+
+void MainWindow::resetLayout()
+{
+  auto* const tools = this->findChild<QToolBar*>("toolBar");
+  this->addToolBar(Qt::TopToolBarArea, tools);
+  tools->show();
+  this->arrangeDocks();
+  this->Views->resetLayout();
 }
 
 void MainWindow::makeFileMenu()
@@ -185,6 +214,8 @@ void MainWindow::makeViewMenu()
   {
     menu->addAction(dock->toggleViewAction());
   }
+  connect(
+    this->addAction(menu, "resetLayout", tr("R&eset layout"), {}), &QAction::triggered, this, &MainWindow::resetLayout);
 }
 
 void MainWindow::makeToolsMenu()

@@ -83,7 +83,10 @@ private:
   void makeToolsMenu();
   void makeHelpMenu();
   void makeDocks();
-  QDockWidget* addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget);
+  QDockWidget* addDock(const QString& name, const QString& title, QWidget* widget);
+  /// Where all are at the first start.
+  void arrangeDocks();
+  void resetLayout();
 
   void askDataset();
   void allowFiles(bool busy);

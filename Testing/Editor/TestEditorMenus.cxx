@@ -16,8 +16,10 @@
 #include <QPlainTextEdit>
 #include <QPointer>
 #include <QRegularExpression>
+#include <QPushButton>
 #include <QStatusBar>
 #include <QTest>
+#include <QTreeWidget>
 
 #include <string>
 
@@ -133,6 +135,87 @@ void TestEditorMenus::smallScreensHaveRoom()
   bothFit(window);
 }
 
+/// In both languages: in a window of the usual size, and buttons without words where there is no room for these.
+void TestEditorMenus::wordsHaveRoom()
+{
+  const auto check = [](dgtk::MainWindow& window)
+  {
+    window.show();
+    window.findChild<QDockWidget*>("valuesDock")->raise();
+    for (const QSize& size : { QSize(1280, 860), QSize(800, 600), QSize(1280, 860) })
+    {
+      window.resize(size);
+      untilQuiet();
+      for (const char* const name : { "makeKeyFrame", "removeKeyFrame" })
+      {
+        const auto* const button = window.findChild<QPushButton*>(name);
+        QVERIFY2(button->width() >= button->sizeHint().width(), qPrintable(button->toolTip()));
+        QVERIFY(button->text().isEmpty() != button->icon().isNull());
+        QCOMPARE(button->text().isEmpty(), size.width() < 1280);
+        QVERIFY(!button->shortcut().isEmpty());
+      }
+    }
+    window.findChild<QAction*>("resetLayout")->trigger();
+    window.findChild<QDockWidget*>("valuesDock")->raise();
+    untilQuiet();
+    const auto* const values = window.findChild<QTreeWidget*>("truthPanel");
+    const QString hint = values->topLevelItem(0)->text(0);
+    QVERIFY2(values->fontMetrics().horizontalAdvance(hint) + 12 < values->viewport()->width(), qPrintable(hint));
+  };
+  check(*this->Window);
+  const German german;
+  dgtk::MainWindow window;
+  check(window);
+}
+
+void TestEditorMenus::theLayoutComesBack()
+{
+  constexpr int leastWidth = 220;
+  const QSize usual(1280, 860);
+  this->Window->resize(usual);
+  untilQuiet();
+  const auto places = [&]
+  {
+    QStringList all;
+    for (const char* const name :
+      { "treeDock", "propertiesDock", "timeDock", "logDock", "view.0", "view.3", "toolBar" })
+    {
+      const auto* const widget = this->Window->findChild<QWidget*>(name);
+      const QRect at(widget->mapTo(this->Window.get(), QPoint(0, 0)), widget->size());
+      all << QString("%1 %2 %3 %4 %5 %6")
+               .arg(name)
+               .arg(at.x())
+               .arg(at.y())
+               .arg(at.width())
+               .arg(at.height())
+               .arg(widget->isVisible());
+    }
+    return all;
+  };
+  this->action("resetLayout")->trigger(); // the window was small when it was shown
+  untilQuiet();
+  const QStringList first = places();
+  QVERIFY2(first[0].section(' ', 3, 3).toInt() > leastWidth, qPrintable(first[0]));
+  this->Window->resize(this->Window->minimumSizeHint());
+  untilQuiet();
+  this->Window->resize(usual);
+  untilQuiet();
+  for (const char* const name : { "treeDock", "propertiesDock" })
+  {
+    QVERIFY(this->Window->findChild<QWidget*>(name)->width() >= leastWidth);
+  }
+  this->Window->findChild<QDockWidget*>("timeDock")->setFloating(true);
+  this->Window->findChild<QDockWidget*>("logDock")->close();
+  this->Window->addDockWidget(Qt::LeftDockWidgetArea, this->Window->findChild<QDockWidget*>("treeDock"));
+  this->Window->findChild<QWidget*>("toolBar")->hide();
+  this->action("maximize")->trigger();
+  untilQuiet();
+  QVERIFY(places() != first);
+  this->action("resetLayout")->trigger();
+  untilQuiet();
+  QCOMPARE(places().join("\n"), first.join("\n"));
+}
+
 void TestEditorMenus::tabStaysOnTheScreen()
 {
   for (const char* const front : { "propertiesDock", "valuesDock" })
@@ -176,6 +259,10 @@ void TestEditorMenus::prepareFor(const QAction& item) const
   else if (name == "preview")
   {
     this->select("left");
+  }
+  else if (name == "resetLayout")
+  {
+    this->action("maximize")->trigger();
   }
   else if (name == "move")
   {

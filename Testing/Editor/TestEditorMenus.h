@@ -20,6 +20,8 @@ private slots:
   void tabStaysOnTheScreen();
   void helpNamesTheKeys();
   void whatIsDeletedWithAnObjectIsNamed();
+  void wordsHaveRoom();
+  void theLayoutComesBack();
 
 private:
   QList<QPointer<QAction>> menuItems() const;

@@ -1392,6 +1392,10 @@
         <source>&lt;p&gt;Click: select; with Ctrl: add. Drag what is selected: move it in the view&apos;s plane. Drag its handles: move, rotate or scale it (1, 2, 3), about its middle or its origin (O).&lt;br&gt;During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.&lt;br&gt;Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.&lt;br&gt;Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.&lt;/p&gt;&lt;p&gt;R frame all, F frame selected, W wireframe, S shaded, T textured, L the scene&apos;s light, G grid, F11 maximise.&lt;br&gt;Ctrl+1 to Ctrl+9: the perspective shows a layer, Ctrl+0: colour.&lt;br&gt;Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.&lt;/p&gt;&lt;p&gt;Ctrl+Z undo, Ctrl+Shift+Z redo, Del delete, F2 rename, K make a key frame, P preview the camera, Alt+Return properties.&lt;/p&gt;&lt;p&gt;In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key. Alt+Left and Alt+Right move the key (with Shift the scene&apos;s, with Ctrl a copy), Shift+K removes it. [ and ] move the start of a sequence, { and } its end.&lt;/p&gt;</source>
         <translation>&lt;p&gt;Klick: auswählen; mit Strg: dazunehmen. Ausgewähltes ziehen: in der Ebene der Ansicht verschieben. Griffe ziehen: verschieben, drehen oder skalieren (1, 2, 3), um die Mitte oder den Ursprung (O).&lt;br&gt;Beim Ziehen: X, Y, Z halten an einer Achse fest, mit Umschalt an den beiden anderen; Strg: Stufen; Esc: wie zuvor.&lt;br&gt;Links ziehen: die Perspektive drehen, die anderen verschieben. Mitte oder Umschalt und links: verschieben.&lt;br&gt;Rechts ziehen oder Rad: zoomen. Rechtsklick: Menü. Doppelklick: eine Ansicht oder alle vier.&lt;/p&gt;&lt;p&gt;R alles zeigen, F Auswahl zeigen, W Drahtgitter, S schattiert, T mit Texturen, L Licht der Szene, G Gitter, F11 maximieren.&lt;br&gt;Strg+1 bis Strg+9: die Perspektive zeigt eine Ebene, Strg+0: Farbe.&lt;br&gt;Pfeile drehen oder verschieben die Ansicht mit dem Rahmen, mit Umschalt verschieben sie; + und - zoomen.&lt;/p&gt;&lt;p&gt;Strg+Z rückgängig, Strg+Umschalt+Z wiederholen, Entf löschen, F2 umbenennen, K Schlüsselbild setzen, P Vorschau der Kamera, Alt+Eingabe Eigenschaften.&lt;/p&gt;&lt;p&gt;In der Zeitleiste: Leertaste spielt ab, Links und Rechts gehen durch die Bilder, mit Strg von Schlüssel zu Schlüssel. Alt+Links und Alt+Rechts verschieben den Schlüssel (mit Umschalt den der Szene, mit Strg eine Kopie), Umschalt+K entfernt ihn. [ und ] verschieben den Anfang einer Sequenz, { und } ihr Ende.&lt;/p&gt;</translation>
     </message>
+    <message>
+        <source>R&amp;eset layout</source>
+        <translation>Anordnung wiede&amp;rherstellen</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::MatchDialog</name>
@@ -2778,7 +2782,7 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     </message>
     <message>
         <source>Move the mouse over the perspective view.</source>
-        <translation>Die Maus über die perspektivische Ansicht bewegen.</translation>
+        <translation>Maus über die Perspektive bewegen.</translation>
     </message>
     <message>
         <source>View</source>
