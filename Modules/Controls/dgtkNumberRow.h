@@ -38,6 +38,7 @@ public:
 
   /// All numbers are taken at once, at Return or when the row is left: for those that make sense together only.
   void takeTogether() { this->Together = true; }
+  bool areTakenTogether() const { return this->Together; }
   /// Takes what is typed now. What is wrong with a text that is no number, or "".
   QString commit();
   /// What is typed is forgotten.

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace dgtk
 {
@@ -21,6 +23,43 @@ namespace
 
 /// Digits beyond what degrees are good for would only be noise.
 double tidy(double degrees) { return std::round(degrees * 1e9) / 1e9 + 0.0; }
+
+/// Whether a row of one item is a row of the other, too, but for those of an object's sequences.
+bool haveSameRows(const SceneDescription& scene, const SceneItem& item, const SceneItem& other)
+{
+  if (item.kind != other.kind)
+  {
+    return false;
+  }
+  switch (item.kind)
+  {
+    case SceneItem::Kind::Object:
+      return true;
+    case SceneItem::Kind::Light:
+      return scene.lights[item.index].kind == scene.lights[other.index].kind;
+    default:
+    {
+      const CameraDescription& a = scene.cameras[item.index];
+      const CameraDescription& b = scene.cameras[other.index];
+      return a.model == b.model && a.posed == b.posed && a.K.has_value() == b.K.has_value();
+    }
+  }
+}
+
+void swapItems(SceneDescription& scene, const SceneItem& item, std::size_t other)
+{
+  switch (item.kind)
+  {
+    case SceneItem::Kind::Object:
+      std::swap(scene.objects[item.index], scene.objects[other]);
+      break;
+    case SceneItem::Kind::Light:
+      std::swap(scene.lights[item.index], scene.lights[other]);
+      break;
+    default:
+      std::swap(scene.cameras[item.index], scene.cameras[other]);
+  }
+}
 } // namespace
 
 Eigen::Vector3d degreesOf(const Quaternion& rotation)
@@ -93,12 +132,13 @@ void PropertiesPanel::rebuild()
     this->Item = selection.front();
     if (selection.size() > 1)
     {
-      this->Form->addRow(new QLabel(tr("The first of %n selected:", nullptr, int(selection.size())), page));
+      this->Form->addRow(
+        new QLabel(tr("%n selected: the first's values, changed for all", nullptr, int(selection.size())), page));
     }
     const SceneItem item = *this->Item;
     this->addText(
       tr("Name"), "name", [item](const SceneDescription& scene) { return itemName(scene, item); },
-      [item](SceneDescription& scene, const std::string& name) { renameItem(scene, item, name); });
+      [item](SceneDescription& scene, const std::string& name) { renameItem(scene, item, name); }, false);
     switch (item.kind)
     {
       case SceneItem::Kind::Object:
@@ -209,19 +249,43 @@ void PropertiesPanel::takeTyped()
   }
 }
 
+SceneItems PropertiesPanel::others() const
+{
+  SceneItems others;
+  if (this->Item)
+  {
+    const SceneItems& selected = this->State.selection();
+    std::copy_if(selected.begin(), selected.end(), std::back_inserter(others),
+      [this](const SceneItem& other)
+      { return !(other == *this->Item) && haveSameRows(this->State.scene(), *this->Item, other); });
+  }
+  return others;
+}
+
 void PropertiesPanel::edit(const QString& label, const std::function<void(SceneDescription&)>& change)
 {
   const std::string text = tr("Change %1").arg(label).toStdString();
   this->State.attempt(
     [&]
     {
-      if (this->Item)
+      const SceneItems others = this->others();
+      if (this->Item && others.empty())
       {
         this->State.document().editItem(text, *this->Item, change);
       }
       else
       {
-        this->State.document().edit(text, change);
+        this->State.document().edit(text,
+          [&](SceneDescription& scene)
+          {
+            change(scene);
+            for (const SceneItem& other : others)
+            {
+              swapItems(scene, *this->Item, other.index);
+              change(scene);
+              swapItems(scene, *this->Item, other.index);
+            }
+          });
       }
     });
   this->refresh();

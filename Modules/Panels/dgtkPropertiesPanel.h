@@ -21,7 +21,7 @@ namespace dgtk
 class NumberRow;
 
 /// The values of what is selected, at the current frame; without a selection those of the scene. Of several things the
-/// one selected first is shown.
+/// one selected first is shown, and changes are made to all that have the same rows.
 class DGTKPANELS_EXPORT PropertiesPanel : public QScrollArea
 {
   Q_OBJECT
@@ -57,7 +57,7 @@ private:
   void addLine(const QString& label, const QString& text);
   void addText(const QString& label, const QString& name,
     const std::function<std::string(const SceneDescription&)>& get,
-    const std::function<void(SceneDescription&, const std::string&)>& set);
+    const std::function<void(SceneDescription&, const std::string&)>& set, bool forAll);
   NumberRow* addNumbers(
     const QString& label, const QString& name, int count, const GetNumbers& get, const SetNumbers& set);
   /// A value that does not move.
@@ -75,7 +75,10 @@ private:
     const std::function<void(SceneDescription&, bool)>& set);
   void addChoice(const QString& label, const QString& name, const QStringList& words,
     const std::function<int(const SceneDescription&)>& get, const std::function<void(SceneDescription&, int)>& set);
+  /// The change is for the item shown; others that are selected take its place for a moment, to be changed likewise.
   void edit(const QString& label, const std::function<void(SceneDescription&)>& change);
+  /// Others that are selected and have the rows that are being made.
+  SceneItems others() const;
 
   EditorState& State;
   QFormLayout* Form = nullptr;

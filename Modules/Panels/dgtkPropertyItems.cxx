@@ -93,7 +93,7 @@ void PropertiesPanel::buildObject(std::size_t index)
   const auto object = [index](SceneDescription& scene) -> ObjectDescription& { return scene.objects[index]; };
   this->addText(
     tr("Class"), "class", [index](const SceneDescription& scene) { return scene.objects[index].className; },
-    [index](SceneDescription& scene, const std::string& text) { scene.objects[index].className = text; });
+    [index](SceneDescription& scene, const std::string& text) { scene.objects[index].className = text; }, true);
   const QString model = toText(this->State.scene().resolve(now.model));
   const QFileInfo file(toText(this->State.document().path()));
   this->addLine(tr("Model"), file.filePath().isEmpty() ? toText(now.model) : file.dir().relativeFilePath(model));
@@ -304,7 +304,7 @@ void PropertiesPanel::buildScene()
 {
   this->addText(
     tr("Units"), "units", [](const SceneDescription& scene) { return scene.units; },
-    [](SceneDescription& scene, const std::string& units) { scene.units = units; });
+    [](SceneDescription& scene, const std::string& units) { scene.units = units; }, false);
   this->addChoice(
     tr("Up axis"), "upAxis", { "y", "z" }, [](const SceneDescription& scene) { return static_cast<int>(scene.upAxis); },
     [](SceneDescription& scene, int axis) { scene.upAxis = static_cast<UpAxis>(axis); });

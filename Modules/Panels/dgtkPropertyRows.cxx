@@ -8,6 +8,7 @@
 #include <QFormLayout>
 #include <QLineEdit>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -33,7 +34,7 @@ SceneDescription& readable(const SceneDescription& scene) { return const_cast<Sc
 
 void PropertiesPanel::addText(const QString& label, const QString& name,
   const std::function<std::string(const SceneDescription&)>& get,
-  const std::function<void(SceneDescription&, const std::string&)>& set)
+  const std::function<void(SceneDescription&, const std::string&)>& set, bool forAll)
 {
   auto* field = new QLineEdit(this->Form->parentWidget());
   field->setObjectName(name);
@@ -49,7 +50,7 @@ void PropertiesPanel::addText(const QString& label, const QString& name,
       }
     });
   connect(field, &QLineEdit::editingFinished, this,
-    [this, field, label, get, set]
+    [this, field, label, get, set, forAll]
     {
       const std::string text = field->text().toStdString();
       const std::string old = get(this->State.scene());
@@ -59,10 +60,15 @@ void PropertiesPanel::addText(const QString& label, const QString& name,
       {
         return;
       }
+      const auto change = [&](SceneDescription& scene) { set(scene, text); };
+      if (forAll)
+      {
+        this->edit(label, change);
+        return;
+      }
       // A name stands in other items too.
       const std::string step = tr("Change %1").arg(label).toStdString();
-      this->State.attempt(
-        [&] { this->State.document().edit(step, [&](SceneDescription& scene) { set(scene, text); }); });
+      this->State.attempt([&] { this->State.document().edit(step, change); });
       this->refresh();
     });
 }
@@ -73,8 +79,21 @@ NumberRow* PropertiesPanel::addNumbers(
   auto* row = new NumberRow(name, count, this->Form->parentWidget());
   this->Form->addRow(label, row);
   this->Refreshers.push_back([row, get](SceneDescription& scene) { row->setValues(get(scene)); });
-  row->onEdit([this, label, set](const Numbers& values)
-    { this->edit(label, [&](SceneDescription& scene) { set(scene, values); }); });
+  row->onEdit(
+    [this, row, label, get, set](const Numbers& values)
+    {
+      const Numbers before = get(this->State.scene());
+      this->edit(label,
+        [&](SceneDescription& scene)
+        {
+          Numbers own = get(scene); // another item's keep what was not typed
+          for (std::size_t i = 0; i < std::min(own.size(), values.size()); ++i)
+          {
+            own[i] = row->areTakenTogether() || values[i] != before[i] ? values[i] : own[i];
+          }
+          set(scene, own);
+        });
+    });
   return row;
 }
 

@@ -105,7 +105,8 @@ void SceneTree::refresh()
     else if (item.kind == SceneItem::Kind::Object)
     {
       const ObjectDescription& object = scene.objects[item.index];
-      kind = isEver(object.visible) ? toText(object.className) : tr("hidden");
+      const QString name = toText(object.className);
+      kind = isEver(object.visible) ? name : name.isEmpty() ? tr("hidden") : tr("%1, hidden").arg(name);
     }
     else
     {

@@ -19,8 +19,14 @@ void PropertiesPanel::buildSequence(std::size_t index)
   {
     words << toText(name);
   }
-  const auto animation = [index](SceneDescription& scene) -> AnimationDescription&
-  { return scene.objects[index].animation; };
+  // Of others that are selected only those of the same model have these sequences.
+  const auto animation = [index, model = this->State.scene().objects[index].model](
+                           SceneDescription& scene) -> AnimationDescription&
+  {
+    static AnimationDescription noOnes;
+    ObjectDescription& object = scene.objects[index];
+    return object.model == model ? object.animation : noOnes;
+  };
   this->addChoice(
     tr("Sequence"), "sequence", words,
     [index, &models](const SceneDescription& scene) { return currentSequence(scene, scene.objects[index], models); },

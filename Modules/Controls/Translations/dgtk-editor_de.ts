@@ -1669,13 +1669,6 @@
 </context>
 <context>
     <name>dgtk::PropertiesPanel</name>
-    <message numerus="yes">
-        <source>The first of %n selected:</source>
-        <translation>
-            <numerusform>Das erste von %n ausgewählten:</numerusform>
-            <numerusform>Das erste von %n ausgewählten:</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Name</source>
         <translation>Name</translation>
@@ -1883,6 +1876,13 @@
     <message>
         <source>A field of view has its principal point in the middle of the image and no skew: set cx, cy to %1, %2 and the skew to 0 first.</source>
         <translation>Ein Bildwinkel hat seinen Hauptpunkt in der Bildmitte und keine Scherung: zuerst cx, cy auf %1, %2 und die Scherung auf 0 setzen.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n selected: the first&apos;s values, changed for all</source>
+        <translation>
+            <numerusform>%n ausgewählt: Werte des ersten, Änderungen für alle</numerusform>
+            <numerusform>%n ausgewählt: Werte des ersten, Änderungen für alle</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2608,6 +2608,10 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Its model is not there: %1</source>
         <translation>Sein Modell ist nicht da: %1</translation>
+    </message>
+    <message>
+        <source>%1, hidden</source>
+        <translation>%1, verborgen</translation>
     </message>
 </context>
 <context>

@@ -156,6 +156,9 @@ TEST_F(PanelTables, TheTreeOfAScene)
   EXPECT_TRUE(state.selection().empty());
   tree.topLevelItem(1)->child(0)->setSelected(true);
   EXPECT_EQ(state.selection(), (SceneItems{ { SceneItem::Kind::Light, 0 } }));
+  state.document().edit("Hide", [](SceneDescription& scene) { scene.objects[0].visible = false; });
+  EXPECT_EQ(textOf(tree).substr(0, 34), "Objects: a/box, hidden b/hidden c/") << "it keeps its class";
+  state.document().undo();
   // What changes in the scene is seen; a name that is typed is an edit.
   state.document().edit("Class", [](SceneDescription& scene) { scene.objects[1].visible = true; });
   EXPECT_EQ(textOf(tree), "Objects: a/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/pinhole\n");

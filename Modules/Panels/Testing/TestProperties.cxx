@@ -164,7 +164,48 @@ Visible | visible off
   EXPECT_FALSE(this->Failure.empty()) << "it is taken";
   EXPECT_EQ(this->field<QLineEdit>("name")->text(), "b");
   this->State->select({ { Kind::Light, 0 }, { Kind::Object, 1 } });
-  EXPECT_EQ(this->rows().substr(0, 45), "The first of 2 selected:\nName | name sun\nKind");
+  EXPECT_EQ(this->rows().substr(0, 51), "2 selected: the first's values\nName | name sun\nKind");
+}
+
+/// Of the same kind; numbers that were not typed, names, and what only one model has stay each one's own.
+TEST_F(Properties, ChangesAreForAllThatAreSelected)
+{
+  SceneDescription wanted = this->scene();
+  const auto expectWanted = [&](const char* what)
+  {
+    EXPECT_EQ(toJson(this->scene(), ""), toJson(wanted, "")) << what;
+    this->State->document().undo();
+    EXPECT_NE(toJson(this->scene(), ""), toJson(wanted, "")) << what;
+    this->State->document().redo();
+  };
+  this->State->select({ { Kind::Object, 0 }, { Kind::Light, 0 }, { Kind::Object, 1 } });
+  this->field<QCheckBox>("visible")->setChecked(false);
+  wanted.objects[0].visible = false;
+  expectWanted("one is hidden already");
+  this->field<QCheckBox>("visible")->setChecked(true);
+  wanted.objects[0].visible = true;
+  wanted.objects[1].visible = true;
+  expectWanted("shown");
+  this->type("class", "case");
+  wanted.objects[0].className = wanted.objects[1].className = "case";
+  expectWanted("class");
+  this->State->setFrame(4);
+  this->type("position.1", "5");
+  wanted.objects[0].position = V(1, 5, 3);
+  wanted.objects[1].position.keys[1].value.y() = 5;
+  expectWanted("one number");
+  this->type("name", "crate");
+  wanted.objects[0].name = wanted.objects[1].parent = "crate";
+  expectWanted("the name is the first's");
+  this->State->select({ { Kind::Light, 0 }, { Kind::Light, 1 } });
+  this->type("intensity.0", "3");
+  wanted.lights[0].intensity = 3;
+  expectWanted("lights of other kinds have other rows");
+  this->State->select({ { Kind::Camera, 1 }, { Kind::Camera, 0 }, { Kind::Camera, 2 } });
+  this->type("focal.0", "95");
+  (*wanted.cameras[1].K)(0, 0) = 95;
+  expectWanted("only one has a matrix");
+  EXPECT_TRUE(this->Failure.empty()) << this->Failure;
 }
 
 TEST_F(Properties, RowsOfLights)
