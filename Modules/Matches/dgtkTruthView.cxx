@@ -23,6 +23,11 @@
 namespace dgtk
 {
 
+namespace
+{
+constexpr const char* noisyDepth = "depth_noisy";
+} // namespace
+
 TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
   : QObject(parent)
   , State(state)
@@ -266,6 +271,10 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
                 .arg(layer)
                 .arg(ends[nearBright ? 0 : 1], 0, 'g', 5)
                 .arg(ends[nearBright ? 1 : 0], 0, 'g', 5);
+  }
+  else if (picture.meaning == Meaning::Depth && !picture.picture.pixels.empty())
+  {
+    caption += ": " + (layer == noisyDepth ? tr("all is out of the range of the depth sensor") : tr("nothing is seen"));
   }
   else if (picture.picture.longest > 0)
   {

@@ -138,6 +138,9 @@ void TestEditorTruth::germanIsSpokenOfTheTruth()
   frame->setValue(this->Window->document().scene().firstFrame());
   QTRY_COMPARE(
     picture->property("caption").toString(), QString("flow_backward: dafür braucht es ein Bild der Szene vor diesem"));
+  this->action("show.depth_noisy")->trigger(); // the scene is seen from far away
+  QTRY_COMPARE(
+    picture->property("caption").toString(), QString("depth_noisy: alles außerhalb der Reichweite des Tiefensensors"));
   this->action("show.flow_forward")->trigger();
   auto* view = this->Window->findChild<QWidget*>("view.3");
   auto* panel = this->Window->findChild<QTreeWidget*>("truthPanel");
