@@ -6,9 +6,11 @@
 #include "dgtkSystem.h"
 
 #include <QApplication>
+#include <QFileInfo>
 #include <QIcon>
 #include <QTimer>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -61,6 +63,8 @@ Words parse(const QStringList& arguments)
   }
   return words;
 }
+
+bool isDataset(const QString& file) { return QFileInfo(file).isDir() || QFileInfo(file).fileName() == "manifest.json"; }
 
 int fail(const QString& what)
 {
@@ -118,6 +122,11 @@ int main(int argc, char** argv)
     {
       window.findRuns();
       window.offerRecovery();
+      if (!words.files.isEmpty() &&
+          std::all_of(words.files.begin(), words.files.end(), [](const QString& file) { return isDataset(file); }))
+      {
+        window.openForDatasets();
+      }
       for (const QString& file : words.files)
       {
         window.openFile(file);

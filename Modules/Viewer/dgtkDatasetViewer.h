@@ -52,6 +52,10 @@ public:
 signals:
   void opened(const QString& folder);
   void refused(const QString& message);
+  /// The window is closed.
+  void left();
+  /// The whole program is to end.
+  void exitAsked();
 
 protected:
   void closeEvent(QCloseEvent* event) override;

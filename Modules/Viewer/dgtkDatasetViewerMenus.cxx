@@ -43,6 +43,8 @@ void DatasetViewer::makeFileMenu()
   menu->addSeparator();
   connect(this->addAction(menu, "close", tr("C&lose"), QKeySequence("Ctrl+W")), &QAction::triggered, this,
     &DatasetViewer::close);
+  connect(this->addAction(menu, "exit", tr("E&xit"), QKeySequence("Ctrl+Q"), false), &QAction::triggered, this,
+    &DatasetViewer::exitAsked);
   this->Tools->addSeparator();
 }
 

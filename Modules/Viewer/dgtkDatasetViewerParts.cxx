@@ -230,6 +230,7 @@ void DatasetViewer::closeEvent(QCloseEvent* event)
   settings.setValue("viewer/split", this->Split->saveState());
   settings.setValue("viewer/rate", this->Frames->rate());
   event->accept();
+  emit this->left();
 }
 
 void DatasetViewer::dragEnterEvent(QDragEnterEvent* event)

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetViewer.h"
+#include "dgtkEditorState.h"
 #include "dgtkMainWindow.h"
 #include "dgtkSceneFiles.h"
 #include "dgtkUsualFolder.h"
 
+#include <QApplication>
 #include <QDir>
 #include <QFileDialog>
+
+#include <algorithm>
 
 namespace dgtk
 {
@@ -22,8 +26,23 @@ void MainWindow::openDataset(const QString& folder)
       this->Files->addRecent(QDir::cleanPath(shown));
       rememberFolder(shown, "dataset");
     });
+  connect(viewer, &DatasetViewer::left, this, &MainWindow::closeAfterDatasets, Qt::QueuedConnection);
+  connect(viewer, &DatasetViewer::exitAsked, this, &QWidget::close, Qt::QueuedConnection);
   viewer->show();
   viewer->openFolder(folder);
+}
+
+void MainWindow::closeAfterDatasets()
+{
+  const QWidgetList windows = QApplication::topLevelWidgets();
+  const bool isAlone = std::none_of(
+    windows.begin(), windows.end(), [this](const QWidget* window) { return window != this && window->isVisible(); });
+  const SceneDocument& document = this->State->document();
+  if (this->IsForDatasets && isAlone && !document.modified() && document.path().empty() &&
+      document.scene().items().empty())
+  {
+    this->close();
+  }
 }
 
 void MainWindow::askDataset()

@@ -57,6 +57,8 @@ public:
   bool importFile(const QString& path);
   /// Shows a finished dataset, by its folder or its manifest.json, in a window of its own.
   void openDataset(const QString& folder);
+  /// The program was started to show datasets only: the window goes with the last of theirs, unless it has a scene.
+  void openForDatasets() { this->IsForDatasets = true; }
   /// Asks about each copy of unsaved work that a crash left behind.
   void offerRecovery();
   /// Shows the run of an earlier window that goes on, and says how others ended since.
@@ -89,6 +91,7 @@ private:
   void resetLayout();
 
   void askDataset();
+  void closeAfterDatasets();
   void allowFiles(bool busy);
   void addCamera();
   void addCameraArray();
@@ -116,6 +119,7 @@ private:
   void note(const QString& line);
   void noteReplacedModels();
 
+  bool IsForDatasets = false;
   EditorState* State;
   BackgroundWork* Work = nullptr;
   SceneViews* Views = nullptr;

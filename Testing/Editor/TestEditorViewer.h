@@ -65,6 +65,7 @@ private slots:
   void largePicturesAreReadInDetail();
   void scrolledPicturesKeepTheirShape();
   void theViewerOpensWhereItWas();
+  void theProgramEndsWithItsDatasets();
   void objectNumbersAreThoseOfTheDataset();
   void germanIsSpokenOfCameras();
   void randomEventsDoNoHarm();

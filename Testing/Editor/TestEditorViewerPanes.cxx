@@ -16,6 +16,7 @@
 #include <QMainWindow>
 #include <QMimeData>
 #include <QPlainTextEdit>
+#include <QPointer>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSpinBox>
@@ -86,6 +87,29 @@ void TestEditorViewer::theViewerOpensWhereItWas()
   QTRY_VERIFY(viewer->windowTitle().startsWith("dataset "));
   QCOMPARE(QSettings().value("folder/dataset").toString(), other);
   QCOMPARE(QSettings().value("recent").toStringList().first(), other);
+}
+
+/// Of a program that was started for a dataset; another one, or one with a scene, goes on. Ctrl+Q ends it at any rate.
+void TestEditorViewer::theProgramEndsWithItsDatasets()
+{
+  const auto closeViewer = [&](const char* action)
+  {
+    this->Window->show();
+    const QPointer<QMainWindow> viewer = this->open(this->dataset());
+    viewer->findChild<QAction*>(action)->trigger();
+    for (int waited = 0; waited < longestRun && !viewer.isNull(); waited += settle)
+    {
+      QTest::qWait(settle);
+    }
+    untilQuiet();
+    return this->Window->isVisible();
+  };
+  QVERIFY(closeViewer("close"));
+  QVERIFY(!closeViewer("exit"));
+  this->Window->openForDatasets();
+  QVERIFY(!closeViewer("close"));
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  QVERIFY(closeViewer("close"));
 }
 
 void TestEditorViewer::objectNumbersAreThoseOfTheDataset()

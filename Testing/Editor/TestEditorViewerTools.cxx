@@ -121,7 +121,8 @@ TestEditorViewer::~TestEditorViewer() = default;
 bool TestEditorViewer::hasWindow(const QString& testCase) const
 {
   const QStringList besideAnEditor{ "opensByFolderManifestAndDrop", "brokenDatasetsAreRefused",
-    "theRenderDialogOpensItsResult", "theViewerOpensWhereItWas", "randomEventsDoNoHarm" };
+    "theRenderDialogOpensItsResult", "theViewerOpensWhereItWas", "theProgramEndsWithItsDatasets",
+    "randomEventsDoNoHarm" };
   return besideAnEditor.contains(testCase);
 }
 
