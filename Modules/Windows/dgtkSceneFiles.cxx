@@ -263,13 +263,44 @@ bool SceneFiles::addRead(const std::string& file, const ModelLibrary& models)
 bool SceneFiles::saveFile(const QString& path)
 {
   this->State.finishTyping();
-  if (!this->State.attempt([&] { this->State.document().saveAs(QFile::encodeName(path).toStdString()); }))
+  QString refusal;
+  const bool isSaved = this->State.attempt(
+    [&]
+    {
+      try
+      {
+        this->State.document().saveAs(QFile::encodeName(path).toStdString());
+      }
+      catch (const Error& error)
+      {
+        refusal = QString::fromUtf8(error.what());
+      }
+    });
+  if (!refusal.isEmpty())
+  {
+    return this->saveElsewhere(refusal);
+  }
+  if (!isSaved)
   {
     return false;
   }
   this->addRecent(path);
   this->Log.note(tr("Saved %1").arg(path));
   return true;
+}
+
+bool SceneFiles::saveElsewhere(const QString& refusal)
+{
+  this->Log.note(refusal);
+  QMessageBox box(QMessageBox::Warning, tr("DGTk"), refusal, QMessageBox::Ok, &this->Window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("errorBox");
+  QPushButton* const other = box.addButton(tr("Save &as ..."), QMessageBox::AcceptRole);
+  other->setObjectName("saveAs");
+  box.setEscapeButton(QMessageBox::Ok);
+  box.setDefaultButton(QMessageBox::Ok);
+  box.exec();
+  return box.clickedButton() == other && this->saveAs();
 }
 
 bool SceneFiles::save()
@@ -326,8 +357,12 @@ bool SceneFiles::mayDiscard()
   {
     return true;
   }
-  QMessageBox box(QMessageBox::Question, tr("DGTk"), tr("The scene has changes that are not saved."),
+  const QString name = QFileInfo(toText(this->State.document().path())).fileName();
+  QMessageBox box(QMessageBox::Question, tr("DGTk"),
+    name.isEmpty() ? tr("The scene has changes that are not saved.")
+                   : tr("%1 has changes that are not saved.").arg(name),
     QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &this->Window);
+  box.setTextFormat(Qt::PlainText);
   box.setObjectName("unsavedBox");
   box.setInformativeText(tr("Save them, or they are lost."));
   box.setDefaultButton(QMessageBox::Save);
@@ -401,7 +436,16 @@ void SceneFiles::refreshRecent()
   {
     QAction* const open =
       this->Recent.addAction(menuText(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath()), this,
-        [this, path] { this->openFile(path); });
+        [this, path]
+        {
+          if (!this->openFile(path) && !QFileInfo::exists(path))
+          {
+            QStringList others = QSettings().value("recent").toStringList();
+            others.removeAll(path);
+            QSettings().setValue("recent", others);
+            this->refreshRecent();
+          }
+        });
     open->setObjectName("recent." + QString::number(this->Recent.actions().size() - 1));
   }
   this->Recent.setEnabled(!recent.isEmpty());

@@ -48,6 +48,8 @@ public:
   void offerRecovery();
   bool save();
   bool saveAs();
+  /// The box with why a file was not written offers another one.
+  bool saveElsewhere(const QString& refusal);
   void askImport();
   void exportPov();
   void askSample();

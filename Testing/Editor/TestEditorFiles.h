@@ -32,6 +32,8 @@ private slots:
   void exportsForPovRay();
   void filesOfTheCommandLineOpen();
   void recentFilesOpenAgain();
+  void recentFilesThatAreGoneAreForgotten();
+  void whatCannotBeWrittenGoesElsewhere();
   void anyNameIsShownAsItIs();
   void theLogsCommandIsForAShell();
   void theWindowIsAsItWasLeft();

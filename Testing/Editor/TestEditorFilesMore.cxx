@@ -24,6 +24,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSettings>
 #include <QSpinBox>
 #include <QStandardPaths>
 #include <QTest>
@@ -251,6 +252,62 @@ void TestEditorFiles::recentFilesOpenAgain()
   QVERIFY(recent->actions().first()->text().contains("demo.json"));
   recent->actions().first()->trigger();
   QTRY_COMPARE(QString::fromStdString(this->Window->document().path()), scene);
+}
+
+void TestEditorFiles::recentFilesThatAreGoneAreForgotten()
+{
+  const QString scene = this->copyOfDemo();
+  QVERIFY(this->Window->openFile(scene));
+  const QString gone = this->path("gone.json");
+  QVERIFY(this->Window->saveFile(gone));
+  QVERIFY(QFile::remove(gone));
+  auto* const recent = this->Window->findChild<QMenu*>("recent");
+  QCOMPARE(recent->actions().size(), 2);
+  QString said;
+  expectRefusal(said);
+  recent->actions().first()->trigger();
+  QTRY_VERIFY2(said.contains("gone.json"), qPrintable(said));
+  QTRY_COMPARE(recent->actions().size(), 1);
+  QVERIFY(recent->actions().first()->text().contains("demo.json"));
+  QCOMPARE(QSettings().value("recent").toStringList(), QStringList{ scene });
+}
+
+/// The box that says why a file cannot be written offers another one; the one about unsaved work names the file.
+void TestEditorFiles::whatCannotBeWrittenGoesElsewhere()
+{
+  const QString scene = this->copyOfDemo();
+  QVERIFY(this->Window->openFile(scene));
+  this->Window->document().edit("none", [](dgtk::SceneDescription& one) { one.units = "cm"; });
+  const QString other = this->path("other.json");
+  QString said;
+  answer<QMessageBox>("errorBox",
+    [&](QMessageBox& box)
+    {
+      said = box.text();
+      answer<QFileDialog>({},
+        [&](QFileDialog& dialog)
+        {
+          auto* const field = dialog.findChild<QLineEdit*>("fileNameEdit");
+          field->setText(other);
+          QTest::keyClick(field, Qt::Key_Return);
+        });
+      QTest::mouseClick(box.findChild<QPushButton*>("saveAs"), Qt::LeftButton);
+    });
+  QVERIFY(this->Window->saveFile(this->path("none/of/these.json")));
+  QVERIFY2(said.contains("these.json"), qPrintable(said));
+  QVERIFY(QFile::exists(other));
+  QVERIFY(!this->Window->document().modified());
+  QCOMPARE(QString::fromStdString(this->Window->document().path()), other);
+  this->Window->document().edit("none", [](dgtk::SceneDescription& one) { one.units = "m"; });
+  answer<QMessageBox>("unsavedBox",
+    [&](QMessageBox& box)
+    {
+      said = box.text();
+      box.reject();
+    });
+  QVERIFY(!this->Window->close());
+  QCOMPARE(said, QString("other.json has changes that are not saved."));
+  this->Window->document().undo();
 }
 
 void TestEditorFiles::anyNameIsShownAsItIs()

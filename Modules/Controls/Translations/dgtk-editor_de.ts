@@ -771,6 +771,10 @@
         <source>Calibration</source>
         <translation>Kalibrierung</translation>
     </message>
+    <message>
+        <source>E&amp;xit</source>
+        <translation>&amp;Beenden</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::DraftLabel</name>
@@ -2574,6 +2578,10 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <source>Save &amp;as ...</source>
         <translation>Speichern &amp;unter ...</translation>
     </message>
+    <message>
+        <source>%1 has changes that are not saved.</source>
+        <translation>%1 hat Änderungen, die nicht gespeichert sind.</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::SceneTree</name>
@@ -2888,6 +2896,14 @@ Teil %2, Dreieck %3</translation>
     <message>
         <source>the picture, one sample a pixel</source>
         <translation>das Bild, ein Abtastpunkt je Pixel</translation>
+    </message>
+    <message>
+        <source>all is out of the range of the depth sensor</source>
+        <translation>alles außerhalb der Reichweite des Tiefensensors</translation>
+    </message>
+    <message>
+        <source>nothing is seen</source>
+        <translation>es ist nichts zu sehen</translation>
     </message>
 </context>
 </TS>
