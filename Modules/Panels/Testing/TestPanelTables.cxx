@@ -163,8 +163,6 @@ TEST_F(PanelTables, TheTreeOfAScene)
   state.document().edit("Class", [](SceneDescription& scene) { scene.objects[1].visible = true; });
   EXPECT_EQ(textOf(tree), "Objects: a/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/pinhole\n");
   state.document().edit("Model", [](SceneDescription& scene) { scene.cameras[0].model = "equirectangular"; });
-  EXPECT_NE(textOf(tree).find("Cameras: eye/equirectangular\n"), std::string::npos) << textOf(tree);
-  state.document().undo();
   tree.topLevelItem(0)->child(0)->setText(0, "renamed");
   QApplication::processEvents();
   EXPECT_EQ(state.document().undoText(), "Rename");
@@ -175,8 +173,8 @@ TEST_F(PanelTables, TheTreeOfAScene)
   QApplication::processEvents();
   EXPECT_FALSE(failure.empty()) << "it is taken";
   EXPECT_EQ(state.scene().objects[1].name, "b");
-  EXPECT_EQ(
-    textOf(tree), "Objects: renamed/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/pinhole\n");
+  EXPECT_EQ(textOf(tree),
+    "Objects: renamed/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/equirectangular\n");
 }
 
 TEST_F(PanelTables, ANameThatIsBeingTypedIsTakenBeforeOtherThings)
