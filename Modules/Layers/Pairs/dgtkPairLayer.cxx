@@ -158,37 +158,37 @@ struct Pair
 std::string stepText(int offset) { return offset == 0 ? "" : (offset > 0 ? "+" : "") + std::to_string(offset); }
 
 /// "A:B", "A:B+1", "A:B-2". Names hold no colons, but maybe signs: a camera of the whole name comes first, also of the
-/// number without needless zeros, which is how its folder is called.
-bool parsePair(const std::vector<std::string>& names, Pair& pair)
+/// number without needless zeros, which is how its folder is called. Returns what is no camera, or no pair; else "".
+std::string parsePair(const std::vector<std::string>& names, Pair& pair)
 {
   const auto find = [&](const std::string& name, std::size_t& camera)
   {
     camera = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     return camera < names.size();
   };
-  const std::size_t colon = pair.text.find(':');
-  if (colon == std::string::npos || !find(pair.text.substr(0, colon), pair.from))
+  const std::string first = pair.text.substr(0, pair.text.find(':'));
+  if (first == pair.text || !find(first, pair.from))
   {
-    return false;
+    return first.empty() ? pair.text : first;
   }
-  const std::string other = pair.text.substr(colon + 1);
+  const std::string other = pair.text.substr(first.size() + 1);
   if (find(other, pair.to))
   {
-    return true;
+    return {};
   }
   const std::size_t sign = other.find_last_of("+-");
   const std::string step = sign == std::string::npos ? "" : other.substr(sign);
   if (step.size() < 2 || step.size() > 7 || step.find_first_not_of("0123456789", 1) != std::string::npos)
   {
-    return false;
+    return other.empty() ? pair.text : other;
   }
   const int offset = std::stoi(step);
   if (find(other.substr(0, sign) + stepText(offset), pair.to))
   {
-    return true;
+    return {};
   }
   pair.offset = offset;
-  return find(other.substr(0, sign), pair.to);
+  return find(other.substr(0, sign), pair.to) ? std::string() : other;
 }
 
 /// The pairs of a request, without repetition, in its order; with `own`, those that begin at that camera: thousands,
@@ -228,14 +228,10 @@ std::vector<Pair> pairsOf(
     }
     Pair pair;
     pair.text = text;
-    if (!parsePair(names, pair))
+    if (const std::string unknown = parsePair(names, pair); !unknown.empty())
     {
-      const std::size_t colon = text.find(':');
-      const std::string from = text.substr(0, colon);
-      const bool known = std::find(names.begin(), names.end(), from) != names.end();
-      throw UsageError(
-        "pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " + quoted(text) +
-        (colon == std::string::npos ? "" : ": there is no camera " + quoted(known ? text.substr(colon + 1) : from)));
+      throw UsageError("pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " +
+                       quoted(text) + (unknown == text ? "" : ", where " + quoted(unknown) + " is no camera"));
     }
     if (pair.from == pair.to && pair.offset == 0)
     {

@@ -122,8 +122,8 @@ TEST(Plan, PairsThatAreNone)
   {
     EXPECT_THAT(refused(pair), HasSubstr("expected FROM:TO")) << pair;
   }
-  EXPECT_THAT(refused("a:c"), HasSubstr("found 'a:c': there is no camera 'c'"));
-  EXPECT_THAT(refused("c:b"), HasSubstr("found 'c:b': there is no camera 'c'"));
+  EXPECT_THAT(refused("a:c"), HasSubstr("found 'a:c', where 'c' is no camera"));
+  EXPECT_THAT(refused("c:b"), HasSubstr("found 'c:b', where 'c' is no camera"));
   EXPECT_THAT(refused("a:b,a:a"), HasSubstr("'a:a' is a camera with itself at the same frame"));
   EXPECT_THAT(refused("a:a+0"), HasSubstr("is a camera with itself at the same frame"));
   EXPECT_THAT(refused("a:a+1"), IsEmpty());

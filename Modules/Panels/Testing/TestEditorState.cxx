@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is selected, the current frame and the clipboard; on no display.
+// What is selected, the current frame, the clipboard and texts of numbers; on no display.
 #include "dgtkEditorState.h"
 
 #include "dgtkEditorLanguage.h"
 #include "dgtkFourItems.h"
+#include "dgtkNumberRow.h"
 #include "dgtkTestWidgets.h"
 
+#include <QSpinBox>
 #include <QTranslator>
 
 #include <gtest/gtest.h>
 
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -132,5 +135,30 @@ TEST(EditorLanguage, OneThingIsNotSeveral)
   EXPECT_EQ(contentsText(scene), "1 Objekt, 3 Lichter, 1 Kamera");
   QCoreApplication::removeTranslator(&german);
   EXPECT_EQ(contentsText(scene), "1 object, 3 lights, 1 camera");
+}
+
+TEST(NumberRow, TextsOfNumbers)
+{
+  needApplication();
+  for (const auto& [text, value] :
+    std::vector<std::pair<const char*, std::optional<double>>>{ { "1", 1 }, { " 1.5 ", 1.5 }, { "1,5", 1.5 },
+      { "+2", 2 }, { "-0.25", -0.25 }, { "1e3", 1000 }, { "", {} }, { "1 2", {} }, { "1.5x", {} }, { "nan", {} },
+      { "inf", {} }, { "1e999", {} }, { "--1", {} }, { "+-1", {} }, { "++1", {} }, { "+", {} }, { "x", {} } })
+  {
+    EXPECT_EQ(numberOf(text), value) << text;
+  }
+  EXPECT_EQ(numberText(0.1), "0.1");
+  EXPECT_EQ(numberText(1e21), "1e+21");
+  for (const auto& [number, pixels] :
+    { std::pair(640.0, 640), std::pair(640.9, 640), std::pair(-5.0, -1), std::pair(1e30, 1 << 24), std::pair(0.0, 0) })
+  {
+    EXPECT_EQ(pixelsOf(number), pixels) << number;
+  }
+  QSpinBox* const box = makeNumber("n", 2, 9, 5);
+  EXPECT_EQ(box->objectName(), "n");
+  EXPECT_EQ(box->minimum(), 2);
+  EXPECT_EQ(box->maximum(), 9);
+  EXPECT_EQ(box->value(), 5);
+  delete box;
 }
 } // namespace

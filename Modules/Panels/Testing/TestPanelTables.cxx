@@ -22,7 +22,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -39,30 +38,6 @@ class PanelTables : public testing::Test
 protected:
   void SetUp() override { test::needApplication(); }
 };
-
-TEST_F(PanelTables, TextsOfNumbers)
-{
-  for (const auto& [text, value] :
-    std::vector<std::pair<const char*, std::optional<double>>>{ { "1", 1 }, { " 1.5 ", 1.5 }, { "1,5", 1.5 },
-      { "+2", 2 }, { "-0.25", -0.25 }, { "1e3", 1000 }, { "", {} }, { "1 2", {} }, { "1.5x", {} }, { "nan", {} },
-      { "inf", {} }, { "1e999", {} }, { "--1", {} }, { "+-1", {} }, { "++1", {} }, { "+", {} }, { "x", {} } })
-  {
-    EXPECT_EQ(numberOf(text), value) << text;
-  }
-  EXPECT_EQ(numberText(0.1), "0.1");
-  EXPECT_EQ(numberText(1e21), "1e+21");
-  for (const auto& [number, pixels] :
-    { std::pair(640.0, 640), std::pair(640.9, 640), std::pair(-5.0, -1), std::pair(1e30, 1 << 24), std::pair(0.0, 0) })
-  {
-    EXPECT_EQ(pixelsOf(number), pixels) << number;
-  }
-  QSpinBox* const box = makeNumber("n", 2, 9, 5);
-  EXPECT_EQ(box->objectName(), "n");
-  EXPECT_EQ(box->minimum(), 2);
-  EXPECT_EQ(box->maximum(), 9);
-  EXPECT_EQ(box->value(), 5);
-  delete box;
-}
 
 TEST_F(PanelTables, RowsTakeWhatIsTyped)
 {
