@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace dgtk::app
 {
@@ -38,10 +39,6 @@ void setLimit(CompareTolerance& tolerance, const std::string& text, const std::s
   const std::string number = equals == std::string::npos ? "" : part.substr(equals + 1);
   double value = -1;
   const auto [end, code] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (text.find(key + '=') != text.rfind(key + '='))
-  {
-    throw UsageError(std::string(toleranceOption) + ": " + key + " twice in " + quoted(text));
-  }
   if (code != std::errc() || end != number.data() + number.size() || !std::isfinite(value) || value < 0)
   {
     badTolerance(text, part);
@@ -73,10 +70,17 @@ Tolerances parseTolerances(const std::vector<std::string>& texts)
     const std::size_t colon = text.find(':');
     const std::string layer = colon == std::string::npos ? "" : text.substr(0, colon);
     CompareTolerance tolerance;
+    std::set<std::string> given;
     for (std::size_t begin = colon == std::string::npos ? 0 : colon + 1; begin <= text.size();)
     {
       const std::size_t comma = std::min(text.find(',', begin), text.size());
-      setLimit(tolerance, text, text.substr(begin, comma - begin));
+      const std::string part = text.substr(begin, comma - begin);
+      setLimit(tolerance, text, part);
+      const std::string key = part.substr(0, part.find('='));
+      if (!given.insert(key).second)
+      {
+        throw UsageError(std::string(toleranceOption) + ": " + key + " twice in " + quoted(text));
+      }
       begin = comma + 1;
     }
     if (!tolerances.emplace(layer, tolerance).second)

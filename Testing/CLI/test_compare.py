@@ -128,7 +128,7 @@ class Tolerances(Case):
 
     def test_wrong_usage(self):
         for wrong in ("color", "color:", "color:2", "color:value", "color:value=", "color:value=-1", "color:value=nan", "color:share=1.1",
-                      "color:pixels=0.5", "color:value=1,", "color:values=1", "color:value=1 "):
+                      "color:pixels=0.5", "color:value=1,", "color:values=1", "color:value=1,pixels=2,", "color:share=1,e=3", "color:value=1 "):
             self.refused("compare", self.one, self.other, "--tolerance", wrong, status=2, says="expected [LAYER:]value=V,pixels=N,share=S")
         self.refused("compare", self.one, self.other, "--tolerance", "colour:value=1", status=2,
                      says=["'colour'", "it has color, depth, objects"])

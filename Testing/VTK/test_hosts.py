@@ -92,5 +92,28 @@ class Hosts(unittest.TestCase):
         self.assertIn(1, classes)
 
 
+class Views(unittest.TestCase):
+    def test_an_interactor(self):
+        renderer = scenes.transforms()
+        interactor = vtk.vtkRenderWindowInteractor()
+        with self.assertRaisesRegex(ValueError, "no vtkRenderer in vtk.*RenderWindowInteractor "):
+            dgtk.truth(interactor, "depth")
+        window = vtk.vtkRenderWindow()
+        window.AddRenderer(renderer)
+        interactor.SetRenderWindow(window)
+        numpy.testing.assert_array_equal(dgtk.truth(interactor, "depth", size=SIZE)["depth"], dgtk.truth(renderer, "depth", size=SIZE)["depth"])
+        window.RemoveRenderer(renderer)
+
+    def test_cameras_that_see_nothing(self):
+        for words, change in (("has a position, a focal point or a view up that is no number", lambda c: c.SetPosition(0, float("nan"), 1)),
+                              ("stands in its focal point", lambda c: c.SetPosition(c.GetFocalPoint())),
+                              ("looks along its view up", lambda c: c.SetViewUp(c.GetDirectionOfProjection())),
+                              ("has a parallel scale of 0", lambda c: (c.ParallelProjectionOn(), c.SetParallelScale(0)))):
+            renderer = scenes.transforms()
+            change(renderer.GetActiveCamera())
+            with self.assertRaisesRegex(ValueError, f"VTK scene: its camera {words}"):
+                dgtk.snapshot(renderer, SIZE)
+
+
 if __name__ == "__main__":
     unittest.main()

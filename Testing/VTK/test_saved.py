@@ -82,6 +82,19 @@ class Saved(unittest.TestCase):
         self.assertLessEqual((numpy.abs(shot - again) > 8).any(-1).sum(), 10 * seen)  # two pixels along borders and rim
         self.assert_said([])
 
+    def test_a_physically_based_surface_without_texture_coordinates(self):
+        """VTK darkens all of it, which a picture says."""
+        cube = vtk.vtkCubeSource()
+        cube.Update()
+        data = cube.GetOutput()
+        data.GetPointData().SetTCoords(None)
+        made = scenes.actor(data)
+        made.GetProperty().SetInterpolationToPBR()
+        made.GetProperty().SetMetallic(0.2)
+        made.GetProperty().SetRoughness(0.5)
+        shot, again = self.both(scenes.renderer(made, eye=(2, 1, 3)))
+        self.assertLessEqual(numpy.abs(shot - again).max(), 1)
+
     def test_what_cannot_be_seen(self):
         ball, cube = scenes.actor(vtk.vtkSphereSource()), scenes.actor(vtk.vtkCubeSource(), color=(0.9, 0.2, 0.1))
         ball.SetPosition(0, 0, 2)

@@ -83,7 +83,7 @@ Image asFile(const Texture& texture)
 {
   constexpr int mostSide = 1024;
   const Image& image = *texture.image;
-  return texture.filter == TextureFilter::Nearest
+  return texture.filter == TextureFilter::Nearest && (image.width > 1 || image.height > 1)
            ? inBlocks(image, blocksOf(image.width, mostSide), blocksOf(image.height, mostSide))
            : image;
 }
@@ -167,10 +167,13 @@ private:
     }
     for (const Part& part : m.parts)
     {
-      text += "usemtl " + m.materials[std::size_t(part.material)].name + '\n';
+      const Material& material = m.materials[std::size_t(part.material)];
+      const bool isDarkened = material.occlusionMap >= 0;
+      text += "usemtl " + material.name + '\n';
       for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
       {
-        const bool placed = this->MapIsTexture ? !uvs.empty() : m.hasUvs(t);
+        // pictures that darken all of a surface need no coordinates in VTK, but files do
+        const bool placed = !uvs.empty() && (this->MapIsTexture || m.hasUvs(t) || isDarkened);
         text += 'f';
         for (const std::uint32_t corner : m.triangles[t])
         {

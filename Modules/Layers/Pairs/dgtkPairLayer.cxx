@@ -180,7 +180,7 @@ std::string parsePair(const std::vector<std::string>& names, Pair& pair)
   const std::string step = sign == std::string::npos ? "" : other.substr(sign);
   if (step.size() < 2 || step.size() > 7 || step.find_first_not_of("0123456789", 1) != std::string::npos)
   {
-    return other.empty() ? pair.text : other;
+    return sign == std::string::npos && !other.empty() ? other : pair.text;
   }
   const int offset = std::stoi(step);
   if (find(other.substr(0, sign) + stepText(offset), pair.to))
@@ -188,7 +188,7 @@ std::string parsePair(const std::vector<std::string>& names, Pair& pair)
     return {};
   }
   pair.offset = offset;
-  return find(other.substr(0, sign), pair.to) ? std::string() : other;
+  return find(other.substr(0, sign), pair.to) ? std::string() : other.substr(0, sign);
 }
 
 /// The pairs of a request, without repetition, in its order; with `own`, those that begin at that camera: thousands,

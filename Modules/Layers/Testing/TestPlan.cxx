@@ -124,6 +124,8 @@ TEST(Plan, PairsThatAreNone)
   }
   EXPECT_THAT(refused("a:c"), HasSubstr("found 'a:c', where 'c' is no camera"));
   EXPECT_THAT(refused("c:b"), HasSubstr("found 'c:b', where 'c' is no camera"));
+  EXPECT_THAT(refused("a:c+1"), HasSubstr("found 'a:c+1', where 'c' is no camera"));
+  EXPECT_THAT(refused("a:b+x"), testing::EndsWith("found 'a:b+x'"));
   EXPECT_THAT(refused("a:b,a:a"), HasSubstr("'a:a' is a camera with itself at the same frame"));
   EXPECT_THAT(refused("a:a+0"), HasSubstr("is a camera with itself at the same frame"));
   EXPECT_THAT(refused("a:a+1"), IsEmpty());
