@@ -128,6 +128,8 @@ TEST(SceneRefusals, JsonSyntax)
     { std::string("{}\n\0", 4), "a.json:2: is not valid JSON" }, // as after a machine's failure
     { std::string("{}\0{}", 5), "a.json:1: is not valid JSON" },
     { "{\n/* open", "a.json:2: is not valid JSON" },
+    { "{\"version\": 1, \"obj\n", "last read: '\"obj<U+000A>'; expected string literal" },
+    { "{\"version\": 1, \"" + std::string(500, 'a') + "\n", "aaa ...'; expected string literal" },
   };
   for (const Case& c : cases)
   {
