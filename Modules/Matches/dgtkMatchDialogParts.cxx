@@ -144,7 +144,7 @@ void MatchDialog::makeControls(QVBoxLayout* layout)
   this->Layer->setObjectName("layer");
   for (const LiveLayer& layer : liveLayers())
   {
-    this->Layer->addItem(toText(layer.name), toText(layer.name));
+    this->Layer->addItem(layerText(layer.name), toText(layer.name));
     this->Layer->setItemData(this->Layer->count() - 1, toText(layer.description), Qt::ToolTipRole);
   }
   auto* label = new QLabel(tr("&Show"));

@@ -48,6 +48,8 @@ QString exactText(const PixelValue& value, const QString& separator)
   return known ? parts.join(separator) : QStringLiteral("-");
 }
 
+QString layerText(const std::string& layer) { return layer == draftLayer ? TruthPanel::tr("Picture") : toText(layer); }
+
 TruthPanel::TruthPanel(QWidget* parent)
   : QTreeWidget(parent)
 {

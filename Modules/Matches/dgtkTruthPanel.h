@@ -8,6 +8,8 @@
 #include <QString>
 #include <QTreeWidget>
 
+#include <string>
+
 namespace dgtk
 {
 
@@ -15,6 +17,9 @@ namespace dgtk
 DGTKMATCHES_EXPORT QString exactText(double value);
 /// The channels of a value; "-" where there is none.
 DGTKMATCHES_EXPORT QString exactText(const PixelValue& value, const QString& separator);
+
+/// What the lists of layers call one: the dataset's name, but for draftLayer.
+QString layerText(const std::string& layer);
 
 /// Everything known about the pixel under the mouse. Control+C copies it.
 class DGTKMATCHES_EXPORT TruthPanel : public QTreeWidget

@@ -47,7 +47,7 @@ TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
   this->Choice->addItem(tr("Colour"), QString());
   for (const LiveLayer& layer : liveLayers())
   {
-    this->Choice->addItem(toText(layer.name), toText(layer.name));
+    this->Choice->addItem(layerText(layer.name), toText(layer.name));
     this->Choice->setItemData(this->Choice->count() - 1, toText(layer.description), Qt::ToolTipRole);
   }
   title->addSpacing(8);

@@ -269,10 +269,11 @@ void PropertiesPanel::buildParameters(std::size_t index)
   for (const CameraParameter& parameter : ownParameters(now.model))
   {
     const QString name = toText(parameter.name);
+    const QString label = name.left(1).toUpper() + name.mid(1);
     const auto given = now.parameters.find(parameter.name);
     if (parameter.kind == CameraParameter::Kind::File)
     {
-      this->addLine(name, given == now.parameters.end() ? QString() : toText(given->second.file));
+      this->addLine(label, given == now.parameters.end() ? QString() : toText(given->second.file));
       continue;
     }
     const auto get = [this, index, parameter](const SceneDescription& scene)
@@ -295,7 +296,7 @@ void PropertiesPanel::buildParameters(std::size_t index)
         setTrackAt(tracks[i], this->State.frame(), numbers[i]);
       }
     };
-    this->addNumbers(parameter.unit.empty() ? name : tr("%1, %2").arg(name, toText(parameter.unit)), name,
+    this->addNumbers(parameter.unit.empty() ? label : tr("%1, %2").arg(label, toText(parameter.unit)), name,
       static_cast<int>(get(this->State.scene()).size()), get, set);
   }
 }

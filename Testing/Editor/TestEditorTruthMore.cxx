@@ -138,6 +138,7 @@ void TestEditorTruth::germanIsSpokenOfTheTruth()
   frame->setValue(this->Window->document().scene().firstFrame());
   QTRY_COMPARE(
     picture->property("caption").toString(), QString("flow_backward: dafür braucht es ein Bild der Szene vor diesem"));
+  QCOMPARE(this->action("show.surface")->text(), QString("Picture"));
   this->action("show.depth_noisy")->trigger(); // the scene is seen from far away
   QTRY_COMPARE(
     picture->property("caption").toString(), QString("depth_noisy: alles außerhalb der Reichweite des Tiefensensors"));

@@ -2099,7 +2099,7 @@
     </message>
     <message>
         <source>&amp;Browse ...</source>
-        <translation>A&amp;uswählen ...</translation>
+        <translation>D&amp;urchsuchen ...</translation>
     </message>
     <message>
         <source>Loo&amp;k at the result</source>
@@ -2861,6 +2861,10 @@ Teil %2, Dreieck %3</translation>
     <message>
         <source>Surfaces</source>
         <translation>Flächen</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Bild</translation>
     </message>
 </context>
 <context>

@@ -47,7 +47,7 @@ Up | up 0 0 1
 Lens | lens by its field of view of 2
 Field of view, ° | fovY 40
 Aspect (0: square) | aspect 1.5
-distortion | distortion 0 0 0 0
+Distortion | distortion 0 0 0 0
 Near, m | near 0.5
 Far, m | far 50
 Size, pixels | size 640 480
@@ -131,7 +131,7 @@ Lens | lens by its matrix K of 2
 fx, fy, pixels | focal 90 80
 cx, cy, pixels | principal 50 40
 Skew, pixels | skew 1
-distortion | distortion 0 0 0 0
+Distortion | distortion 0 0 0 0
 Near, m | near 0.1
 Far, m | far 1000
 Size, pixels | size 100 80
@@ -292,9 +292,9 @@ Model | panels
 Eye, m | eye 0 -5 1
 Look at, m | lookAt 0 0 1
 Up | up 0 0 1
-panelXi, px | panelXi 2
-panelList | panelList 0.5 0.25
-panelFile | a.npy
+PanelXi, px | panelXi 2
+PanelList | panelList 0.5 0.25
+PanelFile | a.npy
 Near, m | near 0.1
 Far, m | far 1000
 Size, pixels | size 0 0
