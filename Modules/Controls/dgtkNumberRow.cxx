@@ -191,11 +191,12 @@ QString NumberRow::commit()
   {
     const std::optional<double> number = numberOf(this->Fields[i]->text());
     wanted[i] = number.value_or(wanted[i]);
-    if (!number && fault.isEmpty())
+    const bool isWrong = !number && this->Fields[i]->isModified(); // of a row without values nothing was typed
+    if (isWrong && fault.isEmpty())
     {
       fault = tr("\"%1\" is no number that can be used here").arg(this->Fields[i]->text());
     }
-    this->Fields[i]->setModified(!number && keepsWrong(*this));
+    this->Fields[i]->setModified(isWrong && keepsWrong(*this));
   }
   const bool other = wanted != this->Values;
   this->setValues(wanted);

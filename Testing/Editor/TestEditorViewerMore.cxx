@@ -97,7 +97,7 @@ int colorsOf(const QImage& image)
 /// Every action that asks for nothing.
 void triggerAll(QMainWindow* viewer)
 {
-  const QStringList asking{ "open", "save", "close", "mouse" };
+  const QStringList asking{ "open", "save", "close", "exit", "mouse" };
   for (QAction* menu : viewer->menuBar()->actions())
   {
     for (QAction* action : menu->menu()->actions())

@@ -29,7 +29,7 @@ void triggerOne(QMainWindow* viewer, std::mt19937& random)
   const QList<QAction*> menus = viewer->menuBar()->actions();
   const QList<QAction*> actions = menus[int(random() % unsigned(menus.size()))]->menu()->actions();
   QAction* const action = actions[int(random() % unsigned(actions.size()))];
-  const QStringList asking{ "open", "save", "close", "mouse" };
+  const QStringList asking{ "open", "save", "close", "exit", "mouse" };
   if (!action->isSeparator() && !asking.contains(action->objectName()))
   {
     action->trigger();
