@@ -178,9 +178,8 @@ int render(const Arguments& arguments)
   }
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.1f s", progress.seconds());
-  progress.message(std::to_string(result.pictures) + (result.pictures == 1 ? " picture, " : " pictures, ") +
-                   std::to_string(result.files) + (result.files == 1 ? " file in " : " files in ") + request.folder +
-                   ", " + seconds);
+  progress.message(std::to_string(result.pictures) + " pictures, " + std::to_string(result.files) + " files in " +
+                   request.folder + ", " + seconds);
   if (arguments.has("--timings"))
   {
     printTimings(progress.seconds());

@@ -331,7 +331,7 @@ class Datasets(ManyCase):
 
             def stop(*report):
                 calls.append(report)
-                if len(calls) == 3:
+                if len(calls) == 2:
                     raise problem
             shutil.rmtree(self.path("python"), ignore_errors=True)
             with self.assertRaises(type(problem)) as caught:
