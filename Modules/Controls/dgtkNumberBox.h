@@ -2,13 +2,14 @@
 #ifndef dgtkNumberBox_h
 #define dgtkNumberBox_h
 
-#include "dgtkControlsModule.h"
+#include "dgtkNumberRow.h"
 
 #include <QDoubleSpinBox>
 #include <QSpinBox>
 #include <QString>
 
-#include <algorithm>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 class QLabel;
@@ -22,7 +23,8 @@ DGTKCONTROLS_EXPORT void tell(const QWidget& field, const QString& text);
 DGTKCONTROLS_EXPORT void tellIn(QWidget& part, QLabel& label);
 /// Whether a text that cannot be taken stays in this field: in dialogs, whose buttons refuse it by commitRows().
 DGTKCONTROLS_EXPORT bool keepsWrong(const QWidget& field);
-DGTKCONTROLS_EXPORT QString rangeFault(const QString& text, const QString& least, const QString& most);
+/// Why a text is no number of a field with this range and so many decimals.
+DGTKCONTROLS_EXPORT QString numberFault(const QString& text, double least, double most, int decimals);
 
 class TypedNumber
 {
@@ -30,48 +32,91 @@ public:
   virtual ~TypedNumber() = default;
   /// Why what is typed cannot be taken, or "".
   virtual QString fault() const = 0;
+  /// What was typed was for something else: the number is shown.
+  virtual void forget() = 0;
 };
 
 /// A spin box that drops no keys, which would leave another number than the one that was typed. What it cannot take is
-/// told; in a dialog it stays, elsewhere the number before comes back.
+/// told; in a dialog it stays, elsewhere the number before comes back. A comma is a point there, too.
 template <typename Box>
 class NumberBox : public Box, public TypedNumber
 {
 public:
-  using Box::Box;
-  using Number = decltype(std::declval<Box>().value());
-
-  QString fault() const override
+  explicit NumberBox(QWidget* parent = nullptr)
+    : Box(parent)
   {
-    return this->hasAcceptableInput()
-             ? QString()
-             : rangeFault(this->cleanText(), Box::textFromValue(this->minimum()), Box::textFromValue(this->maximum()));
+    this->setKeyboardTracking(false); // each key would be a number
+  }
+  using Number = decltype(std::declval<Box>().value());
+  static constexpr bool isWhole = std::is_integral_v<Number>;
+
+  QString fault() const override { return this->hasAcceptableInput() ? QString() : this->faultOf(this->cleanText()); }
+
+  void forget() override
+  {
+    this->Wrong.reset();
+    this->setValue(this->value());
   }
 
   QValidator::State validate(QString& text, int& at) const override
   {
-    const QValidator::State state = std::max(Box::validate(text, at), QValidator::Intermediate);
-    if (state == QValidator::Acceptable)
+    const QString prefix = this->prefix();
+    const QString suffix = this->suffix();
+    bool isFramed = text.size() >= prefix.size() + suffix.size() && text.startsWith(prefix) && text.endsWith(suffix);
+    const bool isNew = text.size() == 1 || numberOf(text); // typed in place of all
+    if (!isFramed && isNew)
     {
-      this->Wrong.clear();
+      text = prefix + text + suffix;
+      at += prefix.size();
+      isFramed = true;
     }
+    if (!isFramed)
+    {
+      return QValidator::Invalid; // the key would be one of the words around the number
+    }
+    const QString typed = text.mid(prefix.size(), text.size() - prefix.size() - suffix.size());
+    QString number = typed;
+    if constexpr (!isWhole)
+    {
+      const QChar point = this->locale().decimalPoint();
+      number.replace(',', point).replace('.', point);
+    }
+    text = prefix + number + suffix;
+    QString found = text;
+    const QValidator::State state = Box::validate(found, at);
+    const std::optional<double> meant = numberOf(typed); // signs between groups of digits are none
+    if (state != QValidator::Acceptable || (meant && *meant != double(this->valueFromText(found))))
+    {
+      return QValidator::Intermediate;
+    }
+    this->Wrong.reset();
     return state;
   }
 
   void fixup(QString& /*text*/) const override
   {
-    this->Wrong = keepsWrong(*this) ? this->cleanText() : QString();
+    this->Wrong = keepsWrong(*this) ? std::optional<QString>(this->cleanText()) : std::nullopt;
     this->WrongAt = this->value();
     tell(*this, this->fault());
   }
 
   QString textFromValue(Number value) const override
   {
-    return this->Wrong.isEmpty() || value != this->WrongAt ? Box::textFromValue(value) : this->Wrong;
+    return this->Wrong && value == this->WrongAt ? *this->Wrong : Box::textFromValue(value);
   }
 
 private:
-  mutable QString Wrong; ///< what is shown in place of the value that it had then
+  QString faultOf(const QString& text) const
+  {
+    int decimals = 0;
+    if constexpr (!isWhole)
+    {
+      decimals = this->decimals();
+    }
+    return numberFault(text, double(this->minimum()), double(this->maximum()), decimals);
+  }
+
+  mutable std::optional<QString> Wrong; ///< what is shown in place of the value that it had then
   mutable Number WrongAt = 0;
 };
 

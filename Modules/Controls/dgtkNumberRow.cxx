@@ -231,7 +231,12 @@ void tell(const QWidget& field, const QString& text)
   if (!text.isEmpty())
   {
     QStatusTipEvent tip(text);
-    QApplication::sendEvent(const_cast<QWidget*>(&field), &tip);
+    QWidget* to = const_cast<QWidget*>(&field);
+    if (QWidget* const dock = to->window(); dock->inherits("QDockWidget"))
+    {
+      to = dock->parentWidget(); // of one that floats nothing goes there by itself
+    }
+    QApplication::sendEvent(to, &tip);
   }
 }
 
@@ -239,9 +244,15 @@ void tellIn(QWidget& part, QLabel& label) { part.installEventFilter(new Teller(p
 
 bool keepsWrong(const QWidget& field) { return qobject_cast<const QDialog*>(field.window()) != nullptr; }
 
-QString rangeFault(const QString& text, const QString& least, const QString& most)
+QString numberFault(const QString& text, double least, double most, int decimals)
 {
-  return NumberRow::tr("\"%1\": expected a number from %2 to %3").arg(text, least, most);
+  const std::optional<double> number = numberOf(text);
+  if (!number || *number < least || *number > most)
+  {
+    return NumberRow::tr("\"%1\": expected a number from %2 to %3").arg(text, numberText(least), numberText(most));
+  }
+  return decimals == 0 ? NumberRow::tr("\"%1\": expected a whole number").arg(text)
+                       : NumberRow::tr("\"%1\": expected at most %2 decimals").arg(text).arg(decimals);
 }
 
 QSpinBox* makeNumber(const QString& name, int least, int most, int value)

@@ -133,7 +133,7 @@ void PropertiesPanel::rebuild()
     if (selection.size() > 1)
     {
       this->Form->addRow(
-        new QLabel(tr("%n selected: the first's values, changed for all", nullptr, int(selection.size())), page));
+        new QLabel(tr("%n selected: the first's values, changed for all with the same rows", nullptr, int(selection.size())), page));
     }
     const SceneItem item = *this->Item;
     this->addText(

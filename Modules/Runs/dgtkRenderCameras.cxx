@@ -2,6 +2,7 @@
 #include "dgtkRenderCameras.h"
 
 #include "dgtkError.h"
+#include "dgtkNumberBox.h"
 #include "dgtkNumberRow.h"
 #include "dgtkScenePlaces.h"
 #include "dgtkStage.h"
@@ -84,6 +85,10 @@ RenderCameras::RenderCameras(EditorState& state, QWidget* parent)
       for (NumberRow* field : { this->Fov, this->Aspect, this->Near, this->Far })
       {
         field->forget(); // what stayed as no number was for another camera
+      }
+      for (QSpinBox* size : this->Size)
+      {
+        dynamic_cast<TypedNumber&>(*size).forget();
       }
       this->showCamera();
     });

@@ -187,6 +187,12 @@ void SampleDialog::openScene(const QString& path)
   this->Seed.reset();
   this->Shown = 0;
   this->Any = false;
+  for (QAbstractSpinBox* box :
+    { static_cast<QAbstractSpinBox*>(this->Number), static_cast<QAbstractSpinBox*>(this->SeedField) })
+  {
+    const QSignalBlocker quiet(box);
+    dynamic_cast<TypedNumber&>(*box).forget(); // it was for another scene
+  }
   this->setFields(0, {});
   this->Values->clear();
   this->Notes->clear();

@@ -112,6 +112,13 @@ void writeScene(const SceneDescription& scene, const std::string& path)
   {
     throw UsageError("a scene cannot be written as " + quoted(path) + " (expected a name in .scene or .json)");
   }
+  namespace fs = std::filesystem;
+  const auto folderOfFile = [](const std::string& file)
+  { return fs::weakly_canonical(fs::absolute(file).parent_path()); };
+  if (folderOfFile(linkedPath(path)) != folderOfFile(path))
+  {
+    throw MachineError(path + ": cannot be written: is a link into another folder, where paths of models are others");
+  }
   writeNamedFile(path, extension == "json" ? toJson(scene, folderOf(path)) : toThesisScene(scene, folderOf(path)));
 }
 

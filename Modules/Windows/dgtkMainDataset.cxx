@@ -38,8 +38,8 @@ void MainWindow::closeAfterDatasets()
   const bool isAlone = std::none_of(
     windows.begin(), windows.end(), [this](const QWidget* window) { return window != this && window->isVisible(); });
   const SceneDocument& document = this->State->document();
-  if (this->IsForDatasets && isAlone && !document.modified() && document.path().empty() &&
-      document.scene().items().empty())
+  if (this->IsForDatasets && this->isVisible() && !this->Work->busy() && isAlone && !document.modified() &&
+      document.path().empty() && document.scene().items().empty())
   {
     this->close();
   }

@@ -1636,6 +1636,14 @@
         <source>&quot;%1&quot;: expected a number from %2 to %3</source>
         <translation>&quot;%1&quot;: erwartet ist eine Zahl von %2 bis %3</translation>
     </message>
+    <message>
+        <source>&quot;%1&quot;: expected a whole number</source>
+        <translation>&quot;%1&quot;: erwartet ist eine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot;: expected at most %2 decimals</source>
+        <translation>&quot;%1&quot;: erwartet sind höchstens %2 Nachkommastellen</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::PictureLoader</name>
@@ -1882,10 +1890,10 @@
         <translation>Ein Bildwinkel hat seinen Hauptpunkt in der Bildmitte und keine Scherung: zuerst cx, cy auf %1, %2 und die Scherung auf 0 setzen.</translation>
     </message>
     <message numerus="yes">
-        <source>%n selected: the first&apos;s values, changed for all</source>
+        <source>%n selected: the first&apos;s values, changed for all with the same rows</source>
         <translation>
-            <numerusform>%n ausgewählt: Werte des ersten, Änderungen für alle</numerusform>
-            <numerusform>%n ausgewählt: Werte des ersten, Änderungen für alle</numerusform>
+            <numerusform>%n ausgewählt: Werte des ersten, Änderungen für alle mit denselben Zeilen</numerusform>
+            <numerusform>%n ausgewählt: Werte des ersten, Änderungen für alle mit denselben Zeilen</numerusform>
         </translation>
     </message>
 </context>

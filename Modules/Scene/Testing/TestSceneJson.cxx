@@ -149,6 +149,12 @@ TEST(SceneJson, IsWrittenWhereALinkLeadsAndKeepsTheModeOfTheFile)
   EXPECT_TRUE(fs::is_symlink(folder.path("link.json")));
   EXPECT_EQ(contentsOf(folder.path("real.json")), toJson(scene, folder.path()));
   EXPECT_EQ(fs::status(folder.path("real.json")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  makeFolders(folder.path("other"));
+  writeFile(folder.path("other/real.json"), "{}");
+  fs::create_symlink("other/real.json", folder.path("away.json"));
+  EXPECT_THAT(thrownBy<MachineError>([&] { writeScene(scene, folder.path("away.json")); }),
+    HasSubstr("is a link into another folder"));
+  EXPECT_EQ(contentsOf(folder.path("other/real.json")), "{}");
 }
 
 TEST(SceneJson, ClassesKeepTheirNumbersAndTheirFile)
