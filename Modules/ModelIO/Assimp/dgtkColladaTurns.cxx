@@ -8,6 +8,8 @@ namespace dgtk::import
 
 namespace
 {
+constexpr std::size_t longestId = 1000; // of what is written for each turn
+
 /// The kind of a transform that begins, or "".
 std::string transformOf(const Markup& markup)
 {
@@ -28,6 +30,13 @@ std::string sidOf(const std::string& target)
 {
   const std::size_t begin = std::min(slashOf(target) + 1, target.size());
   return target.substr(begin, target.find_first_of(".(", begin) - begin);
+}
+
+/// What a node draws or has in it begins, or the node ends.
+bool isContent(const Markup& markup)
+{
+  return markup.isOf("node") || markup.begins("instance_geometry") || markup.begins("instance_controller") ||
+         markup.begins("instance_node");
 }
 } // namespace
 
@@ -58,11 +67,16 @@ void ColladaTurns::lookAt(const Markup& markup)
   {
     return;
   }
+  if (!this->Stack.empty() && isContent(markup))
+  {
+    this->Stack.back().hasContent = true;
+  }
   if (markup.begins("node"))
   {
     const std::string id = markup.attribute("id");
     Node& node = this->Nodes[id];
     ++node.tags;
+    node.isOfLibrary = this->IsLibrary;
     if (!markup.isEmpty())
     {
       this->Stack.push_back({ &node, id, {} });
@@ -71,6 +85,10 @@ void ColladaTurns::lookAt(const Markup& markup)
   else if (markup.isOf("node") && !this->Stack.empty())
   {
     this->Stack.pop_back();
+  }
+  else if (markup.isOf("library_nodes"))
+  {
+    this->IsLibrary = !markup.isEnd() && !markup.isEmpty();
   }
   else if (markup.begins("instance_node"))
   {
@@ -84,7 +102,12 @@ void ColladaTurns::lookAt(const Markup& markup)
   }
   else if (const std::string kind = transformOf(markup); !kind.empty() && !this->Stack.empty())
   {
-    this->Nodes[this->Stack.back().id].elements.push_back({ kind, markup.attribute("sid") });
+    const Open& open = this->Stack.back();
+    if (!open.id.empty()) // or nothing says that it moves
+    {
+      open.node->elements.push_back({ kind, markup.attribute("sid") });
+      open.node->isMixed = open.node->isMixed || open.hasContent;
+    }
   }
 }
 
@@ -96,28 +119,48 @@ void ColladaTurns::divide(const std::string& id, Node& node)
     return;
   }
   std::size_t turns = 0;
+  bool hasSize = false;
   bool isElsewhere = false; // than at a place, turned, with a size: in this order
   const Element* last = nullptr;
   bool isLastTurn = false;
   for (Element& element : node.elements)
   {
-    const bool isTurn = element.kind == "rotate" && moving->second.count(element.sid) > 0;
-    isElsewhere = isElsewhere || (turns > 0 && element.kind != "rotate" && element.kind != "scale");
-    element.piece = last ? last->piece + (isTurn || isLastTurn ? 1 : 0) : 0;
+    const bool moves = !element.sid.empty() && moving->second.count(element.sid) > 0;
+    const bool isTurn = element.kind == "rotate" && moves;
     turns += isTurn ? 1 : 0;
+    isElsewhere = isElsewhere || (turns > 0 && (element.kind == "rotate" ? hasSize : element.kind != "scale"));
+    hasSize = hasSize || element.kind == "scale" || element.kind == "matrix";
+    element.piece = last ? last->piece + (isTurn || isLastTurn ? 1 : 0) : 0;
+    if (moves)
+    {
+      node.pieces.emplace(element.sid, element.piece);
+    }
     last = &element;
     isLastTurn = isTurn;
   }
-  const bool isDivided = turns > 1 || (turns == 1 && isElsewhere);
-  if (isDivided && (node.tags > 1 || this->Instanced.count(id) > 0))
+  if (node.isOfLibrary)
   {
-    this->warnings.push_back("node \"" + id.substr(0, 200) +
-                             "\" turns about a pivot or several axes: its way between keys is a straight line");
+    if (!node.pieces.empty()) // Assimp moves nodes of the scene only
+    {
+      this->warn(id, " of library_nodes moves: its motion is not read");
+    }
+    return;
   }
-  else if (isDivided)
+  if (turns < 2 && !(turns == 1 && isElsewhere))
   {
-    node.last = last->piece;
+    return;
   }
+  if (node.tags > 1 || node.isMixed || id.size() > longestId || this->Instanced.count(id) > 0)
+  {
+    this->warn(id, " turns about a pivot or several axes: its way between keys is a straight line");
+    return;
+  }
+  node.last = last->piece;
+}
+
+void ColladaTurns::warn(const std::string& id, const char* what)
+{
+  this->warnings.push_back("node \"" + id.substr(0, 200) + '"' + what);
 }
 
 std::string ColladaTurns::idOf(const std::string& id, std::size_t piece) const
@@ -127,7 +170,11 @@ std::string ColladaTurns::idOf(const std::string& id, std::size_t piece) const
 
 std::string ColladaTurns::tagOf(const std::string& id, std::size_t piece) const
 {
-  const std::string own = this->idOf(id, piece);
+  std::string own = this->idOf(id, piece);
+  for (std::size_t at = own.find('"'); at != std::string::npos; at = own.find('"', at))
+  {
+    own.replace(at, 1, "&quot;"); // it may stand between others
+  }
   return "<node id=\"" + own + "\" name=\"" + own + "\">";
 }
 
@@ -154,9 +201,7 @@ std::string ColladaTurns::before(const Markup& markup)
   {
     return this->reach(open.node->last == 0 ? 0 : open.node->elements[open.element++].piece);
   }
-  const bool isBehind = markup.isOf("node") || markup.begins("instance_geometry") ||
-                        markup.begins("instance_controller") || markup.begins("instance_node");
-  std::string tags = isBehind ? this->reach(open.node->last) : std::string();
+  std::string tags = isContent(markup) ? this->reach(open.node->last) : std::string();
   if (markup.isOf("node") && markup.isEnd())
   {
     for (std::size_t i = 0; i < open.node->last; ++i)
@@ -170,34 +215,27 @@ std::string ColladaTurns::before(const Markup& markup)
 
 std::string ColladaTurns::tag(const Markup& markup, const std::string& tag)
 {
-  const std::string target = markup.begins("channel") ? markup.attribute("target") : std::string();
-  const std::string id = markup.begins("node") ? markup.attribute("id") : target.substr(0, slashOf(target));
-  const auto found = this->Nodes.find(id);
-  if (this->Extras > 0 || found == this->Nodes.end())
+  if (this->Extras > 0 || !(markup.begins("node") || markup.begins("channel")))
   {
     return tag;
   }
-  const Node& node = found->second;
+  const std::string target = markup.attribute("target");
+  const std::string id = markup.begins("node") ? markup.attribute("id") : target.substr(0, slashOf(target));
+  const auto found = this->Nodes.find(id);
+  if (found == this->Nodes.end() || (markup.begins("node") && markup.isEmpty()))
+  {
+    return tag;
+  }
+  Node& node = found->second;
   if (markup.begins("node"))
   {
-    if (markup.isEmpty())
-    {
-      return tag;
-    }
     this->Stack.push_back({ &node, id, tag });
     return node.last == 0 ? tag : this->tagOf(id, 0);
   }
-  const std::string sid = sidOf(target);
-  for (const Element& element : node.elements)
-  {
-    if (!sid.empty() && element.sid == sid)
-    {
-      return node.last == 0 || element.piece == node.last
-               ? tag
-               : markup.with("channel", "target", this->idOf(id, element.piece) + target.substr(id.size()));
-    }
-  }
-  return tag;
+  const auto piece = node.pieces.find(sidOf(target));
+  return node.last == 0 || piece == node.pieces.end() || piece->second == node.last
+           ? tag
+           : markup.with("channel", "target", this->idOf(id, piece->second) + target.substr(id.size()));
 }
 
 } // namespace dgtk::import

@@ -39,20 +39,25 @@ private:
   struct Node
   {
     std::vector<Element> elements;
-    std::size_t last = 0; ///< piece; this one has the node's own tag
-    std::size_t tags = 0; ///< of that id
+    std::size_t last = 0;                      ///< piece; this one has the node's own tag
+    std::size_t tags = 0;                      ///< of that id
+    std::map<std::string, std::size_t> pieces; ///< of transforms that move, by sid
+    bool isOfLibrary = false;
+    bool isMixed = false; ///< a transform stands behind what it moves
   };
   struct Open
   {
-    const Node* node = nullptr;
+    Node* node = nullptr;
     std::string id;
     std::string tag;
     std::size_t element = 0; ///< the next one
     std::size_t piece = 0;
+    bool hasContent = false;
   };
 
   void lookAt(const Markup& markup);
   void divide(const std::string& id, Node& node);
+  void warn(const std::string& id, const char* what);
   /// Opens the pieces of the innermost node up to one.
   std::string reach(std::size_t piece);
   std::string idOf(const std::string& id, std::size_t piece) const;
@@ -65,6 +70,7 @@ private:
   std::set<std::string> Instanced;
   std::vector<Open> Stack;
   int Extras = 0; ///< open ones
+  bool IsLibrary = false;
 };
 
 } // namespace dgtk::import

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -54,10 +55,10 @@ std::string animation(const std::string& target, const std::string& between = "L
          target + "'/></animation></library_animations>";
 }
 
-/// The triangle as it hangs on one joint, j.
-std::string skin()
+/// The triangle as it hangs on one joint, j; `shape` is what the skin begins with.
+std::string skin(const std::string& shape = {})
 {
-  return "<library_controllers><controller id='c'><skin source='#g'>" + source("j", "Name", 1, 1, "j") +
+  return "<library_controllers><controller id='c'><skin source='#g'>" + shape + source("j", "Name", 1, 1, "j") +
          source("b", "float", 1, 16, identity) + source("w", "float", 1, 1, "1") +
          "<joints><input semantic='JOINT' source='#j'/><input semantic='INV_BIND_MATRIX' source='#b'/></joints>"
          "<vertex_weights count='3'><input semantic='JOINT' source='#j' offset='0'/>"
@@ -133,6 +134,15 @@ TEST(ColladaMeaning, SkinsFollowJointsWithoutNames)
     EXPECT_EQ(model->boundsMax, Eigen::Vector3d(1, 1, 2)) << names << ": without a bind_shape_matrix";
     EXPECT_TRUE(model->warnings.empty()) << names;
   }
+}
+
+TEST(ColladaMeaning, SkinsHaveTheirOwnPlaceOfTheShape)
+{
+  const auto model =
+    readBytes("dae", dae("<node id='r' sid='j' type='JOINT'/><node id='d'>" + drawnSkin + "</node>",
+                       skin("<bind_shape_matrix>1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1</bind_shape_matrix>")));
+  EXPECT_EQ(model->boundsMin, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(5, 6, 6));
 }
 
 TEST(ColladaMeaning, SeveralJointsOfOneSidHaveAWarning)
@@ -303,6 +313,16 @@ std::string turns(const std::vector<std::string>& targets)
 }
 
 const double half = std::sqrt(0.5);
+
+/// A quarter turn about (2, 0, 0).
+const std::string pivot = "<translate sid='a'>2 0 0</translate><rotate sid='z'>0 0 1 0</rotate>"
+                          "<translate sid='b'>-2 0 0</translate>";
+
+/// What is said of a node that is left as it is.
+std::string straight(const std::string& id)
+{
+  return "node \"" + id + "\" turns about a pivot or several axes: its way between keys is a straight line";
+}
 } // namespace
 
 TEST(ColladaMeaning, WhatTurnsAboutAPivotStaysAtItsDistance)
@@ -350,6 +370,98 @@ TEST(ColladaMeaning, WhatElseANodeSaysStaysAsItIs)
   // a node that others stand for cannot be taken apart
   const std::string twice = "<node id='n'><rotate sid='z'>0 0 1 0</rotate><translate>1 0 0</translate>" + instance +
                             "</node><node><instance_node url='#n'/></node>";
-  EXPECT_THAT(readBytes("dae", dae(twice, turns({ "n/z.ANGLE" })))->warnings,
-    ElementsAre("node \"n\" turns about a pivot or several axes: its way between keys is a straight line"));
+  EXPECT_THAT(readBytes("dae", dae(twice, turns({ "n/z.ANGLE" })))->warnings, ElementsAre(straight("n")));
+}
+
+TEST(ColladaMeaning, NodesWithoutIdsTakeNoLonger)
+{
+  std::string many;
+  for (int i = 0; i < 80000; ++i)
+  {
+    many += "<translate>0 0 0</translate>";
+  }
+  const auto duration = [&](const std::string& node)
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(readBytes("dae", dae(node + many + instance + "</node>"))->triangles.size(), 1u);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  EXPECT_LT(duration("<node>"), 1 + 4 * duration("<node id='n'>"));
+}
+
+TEST(ColladaMeaning, IdsOfWhatTurnsHaveQuotes)
+{
+  const auto model =
+    readBytes("dae", dae("<node id='n\"x'>" + pivot + instance + "</node>", turns({ "n\"x/z.ANGLE" })));
+  const auto p = inTheMiddle(*model);
+  ASSERT_EQ(p.size(), 3u);
+  expectClose(p[0], { 2 - 2 * half, -2 * half, 0 });
+}
+
+/// Where taking it apart would leave what it draws outside, or write a long id many times.
+TEST(ColladaMeaning, SomeNodesThatTurnAreLeftAsTheyAre)
+{
+  for (const std::string& content : { instance, std::string("<node id='c'>") + instance + "</node>" })
+  {
+    const auto model = readBytes("dae", dae("<node id='n'>" + content + pivot + "</node>", turns({ "n/z.ANGLE" })));
+    EXPECT_THAT(model->warnings, ElementsAre(straight("n")));
+    const auto p = inTheMiddle(*model);
+    ASSERT_EQ(p.size(), 3u);
+    expectClose(p[0], { 1, -1, 0 });
+  }
+  for (const std::size_t length : { 1000, 1001 })
+  {
+    const std::string id(length, 'n');
+    const auto model =
+      readBytes("dae", dae("<node id='" + id + "'>" + pivot + instance + "</node>", turns({ id + "/z.ANGLE" })));
+    EXPECT_EQ(model->warnings.size(), length - 1000);
+    EXPECT_THAT(model->warnings, testing::Each(straight(id.substr(0, 200))));
+  }
+}
+
+TEST(ColladaMeaning, TheMotionOfNodesInLibrariesIsNotRead)
+{
+  const std::string turn = "<rotate sid='z'>0 0 1 0</rotate>";
+  const auto warnings = [](const std::string& nodes, const std::string& target)
+  {
+    return readBytes("dae",
+      dae("<node><instance_node url='#l'/></node>", "<library_nodes>" + nodes + "</library_nodes>" + turns({ target })))
+      ->warnings;
+  };
+  const auto unread = ElementsAre("node \"n\" of library_nodes moves: its motion is not read");
+  for (const std::string& transforms : { pivot, turn })
+  {
+    const std::string content = transforms + instance + "</node>";
+    EXPECT_THAT(warnings("<node id='l'>" + content, "l/z.ANGLE"),
+      ElementsAre("node \"l\" of library_nodes moves: its motion is not read"));
+    EXPECT_THAT(warnings("<node id='l'><node id='n'>" + content + "</node>", "n/z.ANGLE"), unread);
+    EXPECT_THAT(warnings("<node id='l'>" + content, "l/other"), testing::IsEmpty());
+  }
+  // beside such libraries nodes move
+  const auto model = readBytes("dae", dae("<node id='n'>" + pivot + instance + "</node>",
+                                        "<library_nodes/><library_nodes></library_nodes>" + turns({ "n/z.ANGLE" })));
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+}
+
+TEST(ColladaMeaning, WhatTurnsInsideASizeIsSkewed)
+{
+  const std::string turn = "<rotate sid='z'>0 0 1 0</rotate>";
+  const std::string size = "<scale>2 1 1</scale>";
+  const std::string matrix = "<matrix>2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>";
+  for (const std::string& transforms : { size + turn, matrix + turn, size + "<rotate>0 0 1 0</rotate>" + turn })
+  {
+    const auto model =
+      readBytes("dae", dae("<node id='n'>" + transforms + instance + "</node>", turns({ "n/z.ANGLE" })));
+    EXPECT_THAT(model->warnings, testing::IsEmpty());
+    const auto p = inTheMiddle(*model);
+    ASSERT_EQ(p.size(), 3u);
+    expectClose(p[1], { 2 * half, half, 0 });
+    expectClose(p[2], { -2 * half, half, 0 });
+  }
+  // a size inside a turn is none, unless another turn is inside it
+  const auto model = readBytes("dae",
+    dae("<node id='n'>" + turn + size + "<rotate>0 0 1 45</rotate>" + instance + "</node>", turns({ "n/z.ANGLE" })));
+  const auto p = inTheMiddle(*model);
+  ASSERT_EQ(p.size(), 3u);
+  expectClose(p[1], { 0.5, 1.5, 0 });
 }
