@@ -454,7 +454,7 @@ private:
 
   void report()
   {
-    const auto warn = [this](std::size_t count, const char* text)
+    const auto warn = [this](std::size_t count, const std::string& text)
     {
       if (count > 0)
       {
@@ -465,7 +465,8 @@ private:
     warn(this->UnknownMaterials, " list(s) of faces name a material that does not exist");
     warn(this->BadFaces, " entries of materials name a face that does not exist");
     warn(this->Turned, " texture(s) are drawn without the angle that their material says");
-    warn(countMoving3ds(this->In), " object(s) move: the motion of 3DS files is not read");
+    const std::size_t many = countMoving3ds(this->In);
+    warn(many, (many == 1 ? " object moves" : " objects move") + std::string(": the motion of 3DS files is not read"));
   }
 
   ByteReader In;

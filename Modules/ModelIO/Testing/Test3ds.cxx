@@ -100,7 +100,9 @@ TEST(Studio3ds, MotionHasAWarning)
   EXPECT_THAT(warnings(chunk3ds(0xb003, track(0xb020, 2))), testing::IsEmpty()) << "a camera";
   EXPECT_THAT(warnings(still + chunk3ds(0xb002, track(0xb020, 1) + track(0xb021, 2)) +
                        chunk3ds(0xb002, track(0xb022, 3)) + chunk3ds(0xb002, track(0xb020, 2))),
-    testing::ElementsAre("3 object(s) move: the motion of 3DS files is not read"));
+    testing::ElementsAre("3 objects move: the motion of 3DS files is not read"));
+  EXPECT_THAT(warnings(chunk3ds(0xb002, track(0xb021, 2))),
+    testing::ElementsAre("1 object moves: the motion of 3DS files is not read"));
 }
 
 TEST(Studio3ds, SmoothingGroups)
