@@ -197,18 +197,38 @@ void GltfFile::replaceEmpty()
 {
   std::vector<Json*> empty;
   const Json* fewest = nullptr; // places that others can have
-  for (Json& mesh : this->Root["meshes"])
+  const auto lookAt = [&](Json& primitive)
   {
-    for (Json& primitive : mesh["primitives"])
+    const std::size_t count = this->vertices(primitive);
+    if (count > 0 && (fewest == nullptr || count < this->vertices(*fewest)))
     {
-      const std::size_t count = this->vertices(primitive);
-      if (count > 0 && (fewest == nullptr || count < this->vertices(*fewest)))
+      fewest = &primitive;
+    }
+    if (this->drawsNothing(primitive))
+    {
+      empty.push_back(&primitive);
+    }
+  };
+  Json none;
+  const auto list = [&none](Json& object, const char* name) -> Json&
+  {
+    const auto found = object.find(name);
+    return found == object.end() ? none : *found;
+  };
+  for (Json& mesh : list(this->Root, "meshes"))
+  {
+    for (Json& primitive : list(mesh, "primitives"))
+    {
+      try
       {
-        fewest = &primitive;
+        lookAt(primitive);
       }
-      if (this->drawsNothing(primitive))
+      catch (const std::bad_alloc&)
       {
-        empty.push_back(&primitive);
+        throw;
+      }
+      catch (const std::exception&) // the importer says what it is
+      {
       }
     }
   }
@@ -227,17 +247,7 @@ void GltfFile::replaceEmpty()
 
 std::string GltfFile::inOrder(const std::string& bytes)
 {
-  try
-  {
-    this->replaceEmpty();
-  }
-  catch (const std::bad_alloc&)
-  {
-    throw;
-  }
-  catch (const std::exception&) // the importer refuses it
-  {
-  }
+  this->replaceEmpty();
   for (Json& list : this->Root)
   {
     for (Json& item : list)
