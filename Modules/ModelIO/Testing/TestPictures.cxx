@@ -403,39 +403,6 @@ TEST(Pictures, TheTextOfTheirLibrariesIsNotForUsers)
   EXPECT_EQ(problem.find("library"), std::string::npos);
 }
 
-TEST(Pictures, OnesCutShortAreRefusedNotFilled)
-{
-  const TemporaryFolder folder;
-  const auto problemOf = [&folder](const std::string& name, const std::string& bytes)
-  {
-    dgtk::writeFile(folder.path(name), bytes);
-    std::string problem;
-    const bool isThere = dgtk::decodeTexture(folder.path(name), problem) != nullptr;
-    EXPECT_EQ(problem.empty(), isThere) << name;
-    return problem;
-  };
-  const std::string jpeg = written(folder.path("a.jpg"));
-  for (const std::size_t left : { jpeg.size() / 2, jpeg.size() - 10 })
-  {
-    EXPECT_EQ(problemOf("a.jpg", jpeg.substr(0, left)), "is cut short") << left;
-  }
-  EXPECT_EQ(problemOf("a.jpg", jpeg.substr(0, jpeg.size() - 2)), "") << "all pixels, without the mark of the end";
-  EXPECT_EQ(problemOf("a.jpg", jpeg + "more"), "");
-  const std::string png = written(folder.path("a.png"));
-  EXPECT_EQ(problemOf("a.png", png.substr(0, png.size() / 2)), "is cut short");
-  // an uncompressed DDS of 4 x 4 pixels of 24 bits
-  std::string dds = "DDS " + u32(124) + u32(0x100f) + u32(4) + u32(4) + u32(12) + std::string(52, '\0') + u32(32) +
-                    u32(0x40) + u32(0) + u32(24) + u32(0xff0000) + u32(0xff00) + u32(0xff) + u32(0) + u32(0x1000) +
-                    std::string(16, '\0') + std::string(48, 'x');
-  EXPECT_EQ(problemOf("a.dds", dds), "");
-  EXPECT_EQ(problemOf("a.dds", dds.substr(0, dds.size() - 12)), "is cut short");
-  // two rows of three pixels in three planes, one of whose bytes lacks
-  std::string pcx = "\x0a\x05\x01\x08" + u16(0) + u16(0) + u16(2) + u16(1) + std::string(53, '\0') + "\x03" + u16(3);
-  pcx += std::string(128 - pcx.size(), '\0') + std::string(18, '\x01');
-  EXPECT_EQ(problemOf("a.pcx", pcx), "");
-  EXPECT_EQ(problemOf("a.pcx", pcx.substr(0, pcx.size() - 1)), "is a PCX picture cut short");
-}
-
 namespace
 {
 /// Bytes of a number, the first one highest.

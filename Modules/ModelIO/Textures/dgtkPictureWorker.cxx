@@ -11,6 +11,7 @@
 #include <csetjmp>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include <sys/mman.h>
 
@@ -128,7 +129,7 @@ private:
   int Passes = 1;
 };
 
-/// Gray or colour of 8 bits.
+/// Gray or colour of 8 bits; four inks become colours as in OpenImageIO: as Adobe stores them, 255 for none.
 class Jpeg final : public Sound
 {
 public:
@@ -156,9 +157,9 @@ public:
     jpeg_read_header(&this->Read, TRUE);
     this->width = this->Read.image_width;
     this->height = this->Read.image_height;
-    const bool gray = this->Read.jpeg_color_space == JCS_GRAYSCALE;
-    this->channels = gray ? 1 : 3;
-    return gray || this->Read.jpeg_color_space == JCS_YCbCr;
+    this->channels = this->Read.jpeg_color_space == JCS_GRAYSCALE ? 1 : 3;
+    this->Ink.resize(this->Read.out_color_space == JCS_CMYK ? std::size_t(this->width) * 4 : 0);
+    return this->Read.jpeg_color_space != JCS_UNKNOWN;
   }
 
   bool decode(std::uint8_t* pixels) override
@@ -168,15 +169,22 @@ public:
       return false;
     }
     jpeg_start_decompress(&this->Read);
-    if (this->Read.output_components != this->channels)
+    const bool isInk = !this->Ink.empty();
+    if (this->Read.output_components != (isInk ? 4 : this->channels))
     {
       return false;
     }
     const std::size_t row = std::size_t(this->width) * std::size_t(this->channels);
     while (this->Read.output_scanline < this->Read.output_height)
     {
-      JSAMPROW line = pixels + this->Read.output_scanline * row;
+      std::uint8_t* const to = pixels + this->Read.output_scanline * row;
+      JSAMPROW line = isInk ? this->Ink.data() : to;
       jpeg_read_scanlines(&this->Read, &line, 1);
+      for (std::size_t i = 0; isInk && i < row; ++i)
+      {
+        const std::uint8_t* const inks = line + i / 3 * 4;
+        to[i] = std::uint8_t((inks[i % 3] * inks[3] + 127) / 255);
+      }
     }
     // of several scans the last ones may lack, and arithmetic coding warns of no bit that does
     const bool needsEnd = jpeg_has_multiple_scans(&this->Read) || this->Read.arith_code;
@@ -200,6 +208,7 @@ private:
 
   jpeg_decompress_struct Read{};
   jpeg_error_mgr Errors{};
+  std::vector<std::uint8_t> Ink; ///< a row of pixels of four inks, where the file has them
   bool LacksEnd = false;
 };
 

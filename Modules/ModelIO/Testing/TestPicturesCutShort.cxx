@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures that lack their end: refused, whatever the format, with the same words.
+#include "dgtkFile.h"
+#include "dgtkModelSeeds.h"
+#include "dgtkTestSupport.h"
+#include "dgtkTextureFile.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cstdio> // before jpeglib.h
+#include <cstdlib>
+#include <jpeglib.h>
+
+using namespace dgtk::test;
+
+namespace
+{
+constexpr int width = 64;
+constexpr int height = 36;
+
+std::uint8_t value(std::size_t i) { return std::uint8_t(i * i / 91 + i % 5 * 40); }
+
+/// A picture of three channels as OpenImageIO writes it, an attribute set.
+std::string written(const std::string& path, const std::string& attribute = "none", int set = 0)
+{
+  const auto output = OIIO::ImageOutput::create(path);
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+  spec[attribute] = set;
+  std::vector<std::uint8_t> values;
+  for (std::size_t i = 0; i < std::size_t(width * height * 3); ++i)
+  {
+    values.push_back(value(i));
+  }
+  EXPECT_TRUE(
+    output && output->open(path, spec) && output->write_image(OIIO::TypeDesc::UINT8, values.data()) && output->close());
+  return contentsOf(path);
+}
+
+/// A JPEG of colours that OpenImageIO does not write.
+std::string jpegOf(J_COLOR_SPACE given, J_COLOR_SPACE stored)
+{
+  jpeg_compress_struct write{};
+  jpeg_error_mgr errors{};
+  write.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&write);
+  unsigned char* bytes = nullptr;
+  unsigned long count = 0;
+  jpeg_mem_dest(&write, &bytes, &count);
+  write.image_width = width;
+  write.image_height = height;
+  write.input_components = given == JCS_CMYK ? 4 : 3;
+  write.in_color_space = given;
+  jpeg_set_defaults(&write);
+  jpeg_set_colorspace(&write, stored);
+  jpeg_start_compress(&write, TRUE);
+  std::vector<std::uint8_t> row(std::size_t(width) * 4);
+  for (std::size_t y = 0; y < height; ++y)
+  {
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+      row[i] = value(i + 29 * y);
+    }
+    JSAMPROW line = row.data();
+    jpeg_write_scanlines(&write, &line, 1);
+  }
+  jpeg_finish_compress(&write);
+  jpeg_destroy_compress(&write);
+  std::string out(reinterpret_cast<const char*>(bytes), count);
+  std::free(bytes);
+  return out;
+}
+
+/// What the library says of a picture; "" when it is read.
+std::string problemOf(const std::string& name, const std::string& bytes)
+{
+  const TemporaryFolder folder;
+  dgtk::writeFile(folder.path(name), bytes);
+  std::string problem;
+  const bool isThere = dgtk::decodeTexture(folder.path(name), problem) != nullptr;
+  EXPECT_EQ(problem.empty(), isThere) << name;
+  return problem;
+}
+} // namespace
+
+TEST(Pictures, OnesCutShortAreRefusedNotFilled)
+{
+  const TemporaryFolder folder;
+  const std::string jpeg = written(folder.path("a.jpg"));
+  for (const std::size_t left : { jpeg.size() / 2, jpeg.size() - 10 })
+  {
+    EXPECT_EQ(problemOf("a.jpg", jpeg.substr(0, left)), "is cut short") << left;
+  }
+  EXPECT_EQ(problemOf("a.jpg", jpeg.substr(0, jpeg.size() - 2)), "") << "all pixels, without the mark of the end";
+  EXPECT_EQ(problemOf("a.jpg", jpeg + "more"), "");
+  const std::string progressive = written(folder.path("a.jpg"), "jpeg:progressive", 1);
+  ASSERT_NE(progressive.find("\xff\xc2"), std::string::npos);
+  EXPECT_EQ(problemOf("a.jpg", progressive), "");
+  EXPECT_EQ(problemOf("a.jpg", progressive.substr(0, progressive.size() - 2)), "is cut short")
+    << "of several scans the last ones may lack";
+  const std::string png = written(folder.path("a.png"));
+  EXPECT_EQ(problemOf("a.png", png.substr(0, png.size() / 2)), "is cut short");
+  // an uncompressed DDS of 4 x 4 pixels of 24 bits
+  std::string dds = "DDS " + u32(124) + u32(0x100f) + u32(4) + u32(4) + u32(12) + std::string(52, '\0') + u32(32) +
+                    u32(0x40) + u32(0) + u32(24) + u32(0xff0000) + u32(0xff00) + u32(0xff) + u32(0) + u32(0x1000) +
+                    std::string(16, '\0') + std::string(48, 'x');
+  EXPECT_EQ(problemOf("a.dds", dds), "");
+  EXPECT_EQ(problemOf("a.dds", dds.substr(0, dds.size() - 12)), "is cut short");
+  // two rows of three pixels in three planes, one of whose bytes lacks
+  std::string pcx = "\x0a\x05\x01\x08" + u16(0) + u16(0) + u16(2) + u16(1) + std::string(53, '\0') + "\x03" + u16(3);
+  pcx += std::string(128 - pcx.size(), '\0') + std::string(18, '\x01');
+  EXPECT_EQ(problemOf("a.pcx", pcx), "");
+  EXPECT_EQ(problemOf("a.pcx", pcx.substr(0, pcx.size() - 1)), "is a PCX picture cut short");
+}
+
+TEST(Pictures, JpegsOfAllColoursAreWholeWithoutTheirEnd)
+{
+  struct Row
+  {
+    J_COLOR_SPACE given, stored;
+  };
+  const TemporaryFolder folder;
+  for (const Row& row : { Row{ JCS_CMYK, JCS_CMYK }, Row{ JCS_CMYK, JCS_YCCK }, Row{ JCS_RGB, JCS_RGB } })
+  {
+    const std::string bytes = jpegOf(row.given, row.stored);
+    dgtk::writeFile(folder.path("a.jpg"), bytes);
+    std::vector<std::uint8_t> expected(std::size_t(width * height * 3));
+    const auto library = OIIO::ImageInput::open(folder.path("a.jpg"));
+    ASSERT_TRUE(library && library->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, expected.data())) << row.stored;
+    dgtk::writeFile(folder.path("a.jpg"), bytes.substr(0, bytes.size() - 2));
+    std::string problem;
+    const auto image = dgtk::decodeTexture(folder.path("a.jpg"), problem);
+    ASSERT_TRUE(image) << row.stored << ": " << problem;
+    int wrong = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      wrong += image->rgba.at(i / 3 * 4 + i % 3) != expected[i] ? 1 : 0;
+    }
+    EXPECT_EQ(wrong, 0) << row.stored;
+    for (const std::size_t left : { bytes.size() / 2, bytes.size() - 10 })
+    {
+      EXPECT_EQ(problemOf("a.jpg", bytes.substr(0, left)), "is cut short") << row.stored << ' ' << left;
+    }
+  }
+}
