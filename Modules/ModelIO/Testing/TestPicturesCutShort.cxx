@@ -21,12 +21,14 @@ constexpr int height = 36;
 
 std::uint8_t value(std::size_t i) { return std::uint8_t(i * i / 91 + i % 5 * 40); }
 
-/// A picture of three channels as OpenImageIO writes it, an attribute set.
-std::string written(const std::string& path, const std::string& attribute = "none", int set = 0)
+/// A picture of three channels as OpenImageIO writes it, an attribute set; in tiles of a side, or in none.
+template <typename T = int>
+std::string written(const std::string& path, const std::string& attribute = "none", const T& set = T(), int tile = 0)
 {
   const auto output = OIIO::ImageOutput::create(path);
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec[attribute] = set;
+  spec.tile_width = spec.tile_height = tile;
   std::vector<std::uint8_t> values;
   for (std::size_t i = 0; i < std::size_t(width * height * 3); ++i)
   {
@@ -141,5 +143,72 @@ TEST(Pictures, JpegsOfAllColoursAreWholeWithoutTheirEnd)
     {
       EXPECT_EQ(problemOf("a.jpg", bytes.substr(0, left)), "is cut short") << row.stored << ' ' << left;
     }
+  }
+}
+
+namespace
+{
+void expectCutShort(const std::string& name, const std::string& bytes, std::size_t lacks)
+{
+  EXPECT_EQ(problemOf(name, bytes), "") << name;
+  for (const std::size_t left : { bytes.size() - lacks, bytes.size() / 2, bytes.size() / 4 })
+  {
+    EXPECT_EQ(problemOf(name, bytes.substr(0, left)), "is cut short") << name << ' ' << left;
+  }
+}
+
+/// A TIFF file of 4 x 2 pixels of a byte, all in a strip of `count` bytes, at its end; of 32 or 64 bits.
+std::string tiff(bool highestFirst, bool wide, std::uint64_t count)
+{
+  const std::size_t word = wide ? 8 : 4;
+  const auto number = [&](std::uint64_t value, std::size_t size)
+  {
+    std::string text;
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      text += char(value >> (8 * (highestFirst ? size - 1 - i : i)));
+    }
+    return text;
+  };
+  std::string out = (highestFirst ? "MM" : "II") + number(wide ? 43 : 42, 2);
+  out += wide ? number(8, 2) + number(0, 2) + number(16, 8) : number(8, 4);
+  const std::pair<int, std::uint64_t> fields[] = { { 256, 4 }, { 257, 2 }, { 258, 8 }, { 259, 1 }, { 262, 1 },
+    { 273, 400 }, { 277, 1 }, { 278, 2 }, { 279, count } };
+  out += number(std::size(fields), wide ? 8 : 2);
+  for (const auto& [tag, value] : fields)
+  {
+    out += number(std::uint64_t(tag), 2) + number(wide ? 16 : 4, 2) + number(1, word) + number(value, word);
+  }
+  out += number(0, word);
+  out.resize(400);
+  return out + "abcdefgh";
+}
+} // namespace
+
+TEST(Pictures, TablesThatPlaceRowsBeyondTheFileAreOfOneCutShort)
+{
+  const TemporaryFolder folder;
+  expectCutShort("a.rgb", written(folder.path("a.rgb")), 1);
+  // packed, two rows of four pixels: their places, their lengths, then each row's pixels as they are
+  std::string sgi("\x01\xda\x01\x01\0\x02\0\x04\0\x02\0\x01\0\0\0\0\0\0\0\xff", 20);
+  sgi.resize(512);
+  sgi += std::string("\0\0\x02\x10\0\0\x02\x16\0\0\0\x06\0\0\0\x06", 16);
+  sgi += std::string("\x84"
+                     "abcd\0\x84"
+                     "efgh\0",
+    12);
+  expectCutShort("a.rgb", sgi, 1);
+  for (const bool wide : { false, true })
+  {
+    for (const bool highestFirst : { false, true })
+    {
+      expectCutShort("a.tif", tiff(highestFirst, wide, 8), 1);
+      EXPECT_EQ(problemOf("a.tif", tiff(highestFirst, wide, 9)), "") << "its rows are there";
+    }
+  }
+  for (const std::string compression : { "none", "lzw", "zip" })
+  {
+    expectCutShort("a.tif", written(folder.path("a.tif"), "compression", compression), 1);
+    expectCutShort("a.tif", written(folder.path("a.tif"), "compression", compression, 16), 1);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // dgtk-picture-any: decodes pictures of all kinds with OpenImageIO for the library (dgtkPictureProtocol.h). A program
 // of its own, so that an assertion, an endless loop or a flood of memory in a decoder ends here.
+#include "dgtkPictureEnd.h"
 #include "dgtkPictureServer.h"
 
 #include <OpenImageIO/imageio.h>
@@ -63,6 +64,12 @@ std::string inWords(const std::string& said)
     return cutShort;
   }
   return said.substr(0, said.find('\n'));
+}
+
+bool lacksItsEnd(const Request& request, int file)
+{
+  const Mapping memory(file, request.fileBytes, PROT_READ);
+  return dgtk::picture::lacksItsEnd(static_cast<const std::uint8_t*>(memory.data()), memory.size());
 }
 
 /// Packed rows of a BMP file may end before the picture does, the last one, too: OpenImageIO 2.4 takes what follows
@@ -249,6 +256,11 @@ void decode(const Request& request, int file, int memory, Answer& answer)
 {
   std::string problem;
   const std::string path = descriptorFolder + std::to_string(file);
+  if (lacksItsEnd(request, file))
+  {
+    refuse(answer, cutShort);
+    return;
+  }
   endBmpWithItsLastRow(request, file);
   const auto input = open(request, path, problem);
   if (!input)
