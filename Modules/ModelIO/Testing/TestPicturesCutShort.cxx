@@ -212,3 +212,59 @@ TEST(Pictures, TablesThatPlaceRowsBeyondTheFileAreOfOneCutShort)
     expectCutShort("a.tif", written(folder.path("a.tif"), "compression", compression, 16), 1);
   }
 }
+
+TEST(Pictures, OnesCutShortAreSaidToBeInTheSameWords)
+{
+  const TemporaryFolder folder;
+  for (const std::string name : { "a.gif", "a.jp2", "a.webp", "a.ppm", "a.psd", "a.bmp", "a.tga" })
+  {
+    if (OIIO::ImageOutput::create(name)) // otherwise it cannot be written here
+    {
+      const std::string bytes = written(folder.path(name));
+      EXPECT_EQ(problemOf(name, bytes.substr(0, bytes.size() / 2)).substr(0, 12), "is cut short") << name;
+    }
+    OIIO::geterror();
+  }
+}
+
+TEST(Pictures, PackedBmpOfHalfBytesAndMovesWhoseLastRowEnds)
+{
+  struct Row
+  {
+    unsigned bits, height;
+    std::string packed;
+    std::vector<int> reds; ///< of the picture's texels, the lowest row first
+  };
+  const std::string end("\0\0", 2);
+  const Row rows[] = {
+    // four of a kind; five as they are, whose three bytes have one more behind them
+    { 4, 2, "\x05\x11" + end + std::string("\0\x05\x10\0\x10\0", 6) + end, { 2, 2, 2, 2, 2, 2, 1, 1, 1, 2 } },
+    // four in two bytes, with none behind them, and one
+    { 4, 2, std::string("\0\x04\x01\x10\x01\x01", 6) + end + "\x05\x01" + end, { 1, 2, 2, 1, 1, 1, 2, 1, 2, 1 } },
+    // a row, a move of none along and one row up, which is left out, and the last row
+    { 8, 3, "\x05\x01" + end + std::string("\0\x02\0\x01", 4) + "\x05\x01" + end,
+      { 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2 } },
+  };
+  for (const Row& row : rows)
+  {
+    const std::string head = "BM" + u32(0) + u32(0) + u32(62) + u32(40) + u32(5) + u32(row.height) + u16(1) +
+                             u16(row.bits) + u32(row.bits == 4 ? 2 : 1) + u32(0) + u32(0) + u32(0) + u32(2) + u32(2) +
+                             u32(0x010000) + u32(0x020000);
+    const TemporaryFolder folder;
+    dgtk::writeFile(folder.path("a.bmp"), head + row.packed + std::string("\0\1", 2));
+    std::string problem;
+    const auto image = dgtk::decodeTexture(folder.path("a.bmp"), problem);
+    ASSERT_TRUE(image) << row.bits << ": " << problem;
+    std::vector<int> reds;
+    for (std::size_t i = 0; i < row.reds.size(); ++i)
+    {
+      reds.push_back(image->rgba.at(((row.height - 1 - i / 5) * 5 + i % 5) * 4));
+    }
+    EXPECT_EQ(reds, row.reds) << row.bits << ' ' << row.packed.size();
+  }
+  // a move beyond the only row
+  const std::string beyond = "BM" + u32(0) + u32(0) + u32(62) + u32(40) + u32(4) + u32(1) + u16(1) + u16(8) + u32(1) +
+                             u32(0) + u32(0) + u32(0) + u32(2) + u32(2) + u32(0) + u32(0) +
+                             std::string("\0\2\0\5\4\1", 6) + end;
+  EXPECT_EQ(problemOf("a.bmp", beyond + std::string("\0\1", 2)), "is damaged");
+}

@@ -59,9 +59,18 @@ std::string inWords(const std::string& said)
   {
     return "is in a format that is not read";
   }
-  if (says("hit end of file") || says("Premature end of JPEG file") || says("premature end of data"))
+  for (const char* const end : { "hit end of file", "Hit end of file", "early end of file", "Unexpected end of file",
+         "could only read", "Premature end of JPEG file", "premature end of data", "GIF read error at position",
+         "bytes, expected", "Stream too short", "inconsistent with stream length", "IO error during reading of" })
   {
-    return cutShort;
+    if (says(end))
+    {
+      return cutShort;
+    }
+  }
+  if (says("might be corrupted"))
+  {
+    return "is damaged";
   }
   return said.substr(0, said.find('\n'));
 }
@@ -293,7 +302,8 @@ void decode(const Request& request, int file, int memory, Answer& answer)
     const auto type = request.values == Values::Floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
     if (!input->read_image(0, 0, 0, answer.channels, type, moves ? static_cast<void*>(asInFile.data()) : pixels.data()))
     {
-      refuse(answer, inWords(input->geterror()));
+      const std::string said = input->geterror();
+      refuse(answer, said.empty() ? cutShort : inWords(said)); // the decoder of PNM has no word for it
       return;
     }
     if (const std::string words = inWords(input->geterror()); words == cutShort) // of some formats it fills the rest

@@ -161,11 +161,15 @@ namespace dgtk::picture
 
 bool lacksItsEnd(const std::uint8_t* data, std::size_t bytes)
 {
-  const Numbers file{ data, bytes, bytes > 0 && data[0] != 'I' };
+  const Numbers file{ data, bytes, bytes > 0 && data[0] != 'I' && data[0] != 'R' };
   const std::uint64_t order = file.at(0, 2);
   if (order == 0x01da)
   {
     return sgiLacksItsEnd(file);
+  }
+  if (file.at(0, 4) == 0x46464952 && file.at(8, 4) == 0x50424557) // "RIFF" of that many bytes, "WEBP"
+  {
+    return !file.holds(8, file.at(4, 4));
   }
   const bool isTiff = (order == 0x4949 || order == 0x4d4d) && (file.at(2, 2) == 42 || file.at(2, 2) == 43);
   return isTiff && tiffLacksItsEnd(file);

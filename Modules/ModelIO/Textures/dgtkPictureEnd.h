@@ -8,8 +8,8 @@
 namespace dgtk::picture
 {
 
-/// Whether a file in memory is an SGI or TIFF picture whose own tables place rows beyond its end, which their decoders
-/// fill or take from elsewhere. False for all other files, however damaged.
+/// Whether a file in memory is an SGI, TIFF or WebP picture that places rows beyond its end, which decoders fill, take
+/// from elsewhere or have no word for. False for all other files, however damaged.
 bool lacksItsEnd(const std::uint8_t* data, std::size_t bytes);
 
 } // namespace dgtk::picture
