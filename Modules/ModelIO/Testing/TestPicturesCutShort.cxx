@@ -211,6 +211,9 @@ TEST(Pictures, TablesThatPlaceRowsBeyondTheFileAreOfOneCutShort)
     expectCutShort("a.tif", written(folder.path("a.tif"), "compression", compression), 1);
     expectCutShort("a.tif", written(folder.path("a.tif"), "compression", compression, 16), 1);
   }
+  std::string white = tiff(false, false, 8); // with a white point, at the end, in place of the samples a pixel
+  white.replace(white.find(u16(277) + u16(4)), 12, u16(318) + u16(5) + u32(2) + u32(408));
+  expectCutShort("a.tif", white + u32(1) + u32(3) + u32(1) + u32(3), 1);
 }
 
 TEST(Pictures, OnesCutShortAreSaidToBeInTheSameWords)

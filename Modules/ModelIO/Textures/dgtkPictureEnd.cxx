@@ -89,7 +89,7 @@ public:
       {
         const std::uint64_t type = this->File.at(entry + 2, 2);
         Field field{ entry + 4 + this->Word, this->File.at(entry + 4, this->Word) };
-        field.size = type == 3 ? 2 : type == 4 ? 4 : type == 16 ? 8 : 1;
+        field.size = type == 3 ? 2 : type == 4 ? 4 : type == 5 || type == 16 ? 8 : 1;
         if (field.count > this->Word / field.size)
         {
           field.where = this->File.at(field.where, this->Word);
@@ -122,13 +122,20 @@ private:
   std::uint64_t Count;
 };
 
-/// TIFF 6.0: strips and tiles, each of which begins somewhere and has a count of bytes.
+/// TIFF 6.0: strips and tiles, each of which begins somewhere and has a count of bytes; and what colours depend on.
 bool tiffLacksItsEnd(const Numbers& file)
 {
   const TiffDirectory directory(file);
   if (!directory.isThere())
   {
     return true;
+  }
+  for (const int tag : { 258, 318, 320, 347 }) // bits, white point, colour map, tables of JPEG
+  {
+    if (!directory.holds(directory.field(std::uint64_t(tag))))
+    {
+      return true;
+    }
   }
   // a count of the only strip that is too large is ignored by readers where nothing is packed: there are the rows
   const std::uint64_t row = (directory.first(256, 0) * directory.first(258, 1) * directory.first(277, 1) + 7) / 8;
