@@ -3,7 +3,6 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkModelChecks.h"
-#include "dgtkModelSeeds.h"
 #include "dgtkTestSupport.h"
 #include "dgtkTextureFile.h"
 
