@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkBackgroundWork.h"
 #include "dgtkDatasetViewer.h"
 #include "dgtkEditorState.h"
 #include "dgtkMainWindow.h"
