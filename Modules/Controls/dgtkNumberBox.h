@@ -26,6 +26,9 @@ DGTKCONTROLS_EXPORT bool keepsWrong(const QWidget& field);
 /// Why a text is no number of a field with this range and so many decimals.
 DGTKCONTROLS_EXPORT QString numberFault(const QString& text, double least, double most, int decimals);
 
+/// Whether a text is what is left of the words beside a number, or holds them.
+DGTKCONTROLS_EXPORT bool hasPieceOf(const QString& words, const QString& text);
+
 class TypedNumber
 {
 public:
@@ -60,21 +63,15 @@ public:
 
   QValidator::State validate(QString& text, int& at) const override
   {
+    // Qt has put back what a key took of the words around the number: that key is ignored, any other is not.
     const QString prefix = this->prefix();
     const QString suffix = this->suffix();
-    bool isFramed = text.size() >= prefix.size() + suffix.size() && text.startsWith(prefix) && text.endsWith(suffix);
-    const bool isNew = text.size() == 1 || numberOf(text); // typed in place of all
-    if (!isFramed && isNew)
+    QString typed = text.startsWith(prefix) ? text.mid(prefix.size()) : text;
+    typed.chop(typed.endsWith(suffix) ? suffix.size() : 0);
+    if (hasPieceOf(prefix, typed) || hasPieceOf(suffix, typed))
     {
-      text = prefix + text + suffix;
-      at += prefix.size();
-      isFramed = true;
+      return QValidator::Invalid;
     }
-    if (!isFramed)
-    {
-      return QValidator::Invalid; // the key would be one of the words around the number
-    }
-    const QString typed = text.mid(prefix.size(), text.size() - prefix.size() - suffix.size());
     QString number = typed;
     if constexpr (!isWhole)
     {

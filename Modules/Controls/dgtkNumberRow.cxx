@@ -244,6 +244,17 @@ void tellIn(QWidget& part, QLabel& label) { part.installEventFilter(new Teller(p
 
 bool keepsWrong(const QWidget& field) { return qobject_cast<const QDialog*>(field.window()) != nullptr; }
 
+bool hasPieceOf(const QString& words, const QString& text)
+{
+  bool is = !words.isEmpty() && text.contains(words);
+  for (int size = 2; size < words.size(); ++size)
+  {
+    is = is || text.endsWith(words.left(size)) || text.endsWith(words.right(size)) ||
+         text.startsWith(words.left(size)) || text.startsWith(words.right(size));
+  }
+  return is;
+}
+
 QString numberFault(const QString& text, double least, double most, int decimals)
 {
   const std::optional<double> number = numberOf(text);

@@ -274,6 +274,37 @@ void TestEditorTyping::numbersThatAreNoneAreTold()
   QCOMPARE(document.json(), first);
 }
 
+/// Keys at the ends of "25.000 frames/s" change the number alone, and a comma is a point.
+void TestEditorTyping::wordsAroundANumberStay()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  auto* const rate = this->Window->findChild<QDoubleSpinBox*>("frameRate");
+  rate->setFocus();
+  const QString suffix = rate->suffix();
+  QTest::keyClick(rate, Qt::Key_End);
+  QTest::keyClick(rate, Qt::Key_Backspace);
+  QTest::keyClick(rate, Qt::Key_Backspace);
+  QCOMPARE(rate->text(), "25.000" + suffix);
+  QTest::keyClick(rate, Qt::Key_Home);
+  for (int i = 0; i < 20; ++i)
+  {
+    QTest::keyClick(rate, Qt::Key_Delete);
+  }
+  QCOMPARE(rate->text(), suffix);
+  for (const auto& [text, value] : { std::pair("30", 30.0), std::pair("23,976", 23.976), std::pair("1,5", 1.5) })
+  {
+    QTest::keyClick(rate, Qt::Key_Home);
+    QTest::keyClicks(rate, text);
+    QTest::keyClick(rate, Qt::Key_Return);
+    QCOMPARE(rate->value(), value);
+    rate->selectAll();
+    QTest::keyClick(rate, Qt::Key_Delete);
+  }
+  typeInto(rate, "23.9761");
+  QCOMPARE(this->Window->statusBar()->currentMessage(), QString("\"23.9761\": expected at most 3 decimals"));
+  QCOMPARE(rate->value(), 1.5);
+}
+
 /// A number that an option cannot have stays in its field, and no run begins with another one.
 void TestEditorTyping::noKeyIsDropped()
 {

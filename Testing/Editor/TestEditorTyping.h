@@ -18,6 +18,7 @@ private slots:
   void hugeSizesAreRefused();
   void numbersThatAreNoneAreTold();
   void noKeyIsDropped();
+  void wordsAroundANumberStay();
   void unitsAreTyped();
   void everyNumberIsOfItsOwnProperty();
   void parametersOfAModelAreTyped();

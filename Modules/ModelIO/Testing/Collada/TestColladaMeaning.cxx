@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -371,22 +370,6 @@ TEST(ColladaMeaning, WhatElseANodeSaysStaysAsItIs)
   const std::string twice = "<node id='n'><rotate sid='z'>0 0 1 0</rotate><translate>1 0 0</translate>" + instance +
                             "</node><node><instance_node url='#n'/></node>";
   EXPECT_THAT(readBytes("dae", dae(twice, turns({ "n/z.ANGLE" })))->warnings, ElementsAre(straight("n")));
-}
-
-TEST(ColladaMeaning, NodesWithoutIdsTakeNoLonger)
-{
-  std::string many;
-  for (int i = 0; i < 80000; ++i)
-  {
-    many += "<translate>0 0 0</translate>";
-  }
-  const auto duration = [&](const std::string& node)
-  {
-    const auto begin = std::chrono::steady_clock::now();
-    EXPECT_EQ(readBytes("dae", dae(node + many + instance + "</node>"))->triangles.size(), 1u);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  EXPECT_LT(duration("<node>"), 1 + 4 * duration("<node id='n'>"));
 }
 
 TEST(ColladaMeaning, IdsOfWhatTurnsHaveQuotes)
