@@ -78,6 +78,7 @@ QPushButton* TimeLine::addKeyButton(const char* name, const char* icon, const QS
   button->setObjectName(name);
   button->setMinimumWidth(narrowButton);
   button->setToolTip(QString(text).remove('&'));
+  button->setAccessibleName(button->toolTip()); // also where there is room for its icon only
   this->Controls->addWidget(button);
   button->ensurePolished();
   this->KeyButtons.push_back({ button, editorIcon(icon), text, button->sizeHint().width() });

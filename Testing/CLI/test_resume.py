@@ -148,7 +148,7 @@ class Resume(ManyCase):
         before = digests(folder)
         self.refused("render", SCENE, "-o", folder, *other, "--resume", status=2, says="another request")
         for command in (["verify", folder], ["info", folder], ["compare", folder, folder], ["report", folder, "-o", self.path("report")]):
-            self.refused(*command, status=3, says="holds an unfinished run: the same dgtk render command with --resume completes it")
+            self.refused(*command, status=3, says="holds an unfinished run: the same run with resume completes it")
         self.refused("render", SCENE, "-o", folder, *other, status=2, says=("unfinished run of another request", "--replace"))
         self.assertEqual(digests(folder), before)
         self.write("mixed/notes.txt", "mine")

@@ -114,7 +114,7 @@ void requireFinished(const std::string& folder)
   }
   if (folderContents(folder, "") == FolderContents::UnfinishedOther)
   {
-    throw InputError(folder, "holds an unfinished run: the same dgtk render command with --resume completes it");
+    throw InputError(folder, "holds an unfinished run: the same run with resume completes it");
   }
 }
 

@@ -31,7 +31,7 @@ DGTKDATASETIO_EXPORT FolderContents folderContents(const std::string& folder, co
 /// The end of a sentence that begins with a folder's name: "holds an unfinished run of the same request".
 DGTKDATASETIO_EXPORT std::string describe(FolderContents contents);
 
-/// Throws InputError, which names the command that completes it, where a folder holds a run that is not finished, or in
+/// Throws InputError, which says what completes it, where a folder holds a run that is not finished, or in
 /// parts that are not merged.
 DGTKDATASETIO_EXPORT void requireFinished(const std::string& folder);
 
