@@ -272,7 +272,6 @@ QSpinBox* makeNumber(const QString& name, int least, int most, int value)
   box->setObjectName(name);
   box->setRange(least, most);
   box->setValue(value);
-  box->setKeyboardTracking(false);
   return box;
 }
 

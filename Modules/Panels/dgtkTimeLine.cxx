@@ -48,14 +48,12 @@ void TimeLine::addFrameFields(QBoxLayout* layout)
   this->Frame = new NumberBox<QSpinBox>(this);
   this->Frame->setObjectName("frame");
   this->Frame->setRange(0, largestFrame);
-  this->Frame->setKeyboardTracking(false);
   leaveUndo(this->Frame);
   layout->addWidget(this->Frame);
   this->Rate = new NumberBox<QDoubleSpinBox>(this);
   this->Rate->setObjectName("frameRate");
   this->Rate->setDecimals(rateDecimals);
   this->Rate->setRange(slowest, fastest);
-  this->Rate->setKeyboardTracking(false);
   this->Rate->setSuffix(tr(" frames/s"));
   this->Rate->setMinimumWidth(narrowest);
   this->Rate->setMaximumWidth(this->Rate->fontMetrics().horizontalAdvance("1000.000" + this->Rate->suffix()) + arrows);

@@ -98,12 +98,10 @@ void SampleDialog::makeFields(QVBoxLayout* layout)
   this->Number = new NumberBox<QSpinBox>;
   this->Number->setObjectName("number");
   this->Number->setRange(0, largestSample);
-  this->Number->setKeyboardTracking(false);
   this->SeedField = new NumberBox<QDoubleSpinBox>;
   this->SeedField->setObjectName("seed");
   this->SeedField->setDecimals(0);
   this->SeedField->setRange(0, largestSeed);
-  this->SeedField->setKeyboardTracking(false);
   this->SeedField->setToolTip(tr("The scene's own seed, or another one to draw with"));
   auto* row = new QHBoxLayout;
   this->Previous = addButton(row, tr("&Previous"), "previous");

@@ -356,8 +356,7 @@ std::shared_ptr<const Image> imageOf(vtkImageData& data)
 {
   vtkDataArray* const scalars = data.GetPointData()->GetScalars();
   const int* const sides = data.GetDimensions();
-  if (scalars == nullptr || scalars->GetDataType() != VTK_UNSIGNED_CHAR || *std::min_element(sides, sides + 3) < 1 ||
-      *std::min_element(sides, sides + 3) > 1)
+  if (scalars == nullptr || scalars->GetDataType() != VTK_UNSIGNED_CHAR || *std::min_element(sides, sides + 3) != 1)
   {
     return nullptr;
   }
