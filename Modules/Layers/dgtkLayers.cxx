@@ -28,13 +28,33 @@ std::vector<LayerOutput> PlannedPass::outputs() const
   return all;
 }
 
+namespace
+{
+bool isCurved(const WorkPlan& plan, const Job& job, const PlannedLayer& planned)
+{
+  return planned.linear && plan.curved.count(job.camera) > 0;
+}
+} // namespace
+
+std::vector<LayerOutput> outputsOf(
+  const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned)
+{
+  return isCurved(plan, job, planned) ? std::vector<LayerOutput>() : planned.layer->outputs(plan, stage, job, planned);
+}
+
+std::string requirementOf(const WorkPlan& plan, const Job& job, const PlannedLayer& planned)
+{
+  return isCurved(plan, job, planned) ? "a camera with a linear projection and no rolling shutter"
+                                      : planned.layer->requirement();
+}
+
 std::vector<PlannedPass> passesOf(const WorkPlan& plan, const Stage& stage, const Job& job)
 {
   std::vector<PlannedPass> passes;
   for (const PlannedLayer& planned : plan.layers)
   {
     const Layer& layer = *planned.layer;
-    std::vector<LayerOutput> outputs = layer.outputs(plan, stage, job, planned);
+    std::vector<LayerOutput> outputs = outputsOf(plan, stage, job, planned);
     if (outputs.empty())
     {
       continue;
@@ -57,7 +77,7 @@ std::vector<LayerOutput> outputsOf(const WorkPlan& plan, const Stage& stage, con
   std::vector<LayerOutput> all;
   for (const PlannedLayer& planned : plan.layers)
   {
-    std::vector<LayerOutput> outputs = planned.layer->outputs(plan, stage, job, planned);
+    std::vector<LayerOutput> outputs = outputsOf(plan, stage, job, planned);
     all.insert(all.end(), std::make_move_iterator(outputs.begin()), std::make_move_iterator(outputs.end()));
   }
   return all;

@@ -80,7 +80,7 @@ public:
   virtual std::vector<const OptionRow*> options() const { return {}; }
   /// Keys and values about the noise of sensors, besides the scene; they stand last, each once.
   virtual std::vector<std::pair<std::string, std::string>> noise(const WorkPlan&, const Stage&) const { return {}; }
-  /// What a job has of it, each once; nothing where it lacks something.
+  /// What a job has of it, each once; nothing where it lacks something else than a linear projection (outputsOf()).
   virtual std::vector<LayerOutput> outputs(const WorkPlan&, const Stage&, const Job&, const PlannedLayer&) const = 0;
   /// What a picture needs to have it, to follow "needs"; "" where none is without but by design.
   virtual std::string requirement() const { return {}; }
@@ -118,6 +118,13 @@ struct DGTKLAYERS_EXPORT PlannedPass
 };
 /// What has to be done for a job, in the order of its layers.
 DGTKLAYERS_EXPORT std::vector<PlannedPass> passesOf(const WorkPlan& plan, const Stage& stage, const Job& job);
+
+/// What a job has of a layer of the plan.
+DGTKLAYERS_EXPORT std::vector<LayerOutput> outputsOf(
+  const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned);
+
+/// What a job needs to have a layer of the plan, to follow "needs"; "" where none is without but by design.
+DGTKLAYERS_EXPORT std::string requirementOf(const WorkPlan& plan, const Job& job, const PlannedLayer& planned);
 
 /// All outputs of a job, in the order of its layers.
 DGTKLAYERS_EXPORT std::vector<LayerOutput> outputsOf(const WorkPlan& plan, const Stage& stage, const Job& job);

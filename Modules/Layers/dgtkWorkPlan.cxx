@@ -9,7 +9,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <set>
+#include <iterator>
+#include <map>
 
 namespace dgtk
 {
@@ -250,38 +251,51 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
   }
 }
 
-/// Drawing, and files that hold matrices of OpenGL, are for linear projections. A layer that needs those and was not
-/// asked for by its name is left out of the plan where a camera has another.
-void checkCameras(WorkPlan& plan, const Stage& stage)
+/// The views of the cameras that are drawn, by camera.
+std::map<std::size_t, View> drawnViews(const WorkPlan& plan, const Stage& stage)
 {
-  std::set<std::size_t> seen;
-  std::set<std::string> leftOut;
+  const LayerRequest& request = plan.request;
+  std::map<std::size_t, View> views;
   for (const Job& job : plan.jobs)
   {
-    const LayerRequest& request = plan.request;
     const std::string& own = stage.description().cameras[job.camera].name;
-    if (!seen.insert(job.camera).second || (!request.picture.empty() && own != request.picture))
+    if (views.count(job.camera) == 0 && (request.picture.empty() || own == request.picture))
     {
-      continue;
+      views.emplace(job.camera, stage.view(job.camera, job.frame, request.width, request.height));
     }
-    const View view = stage.view(job.camera, job.frame, request.width, request.height);
-    const bool linear = view.model->linear() && !view.instants;
+  }
+  return views;
+}
+
+/// Drawing, and files that hold matrices of OpenGL, are for linear projections. A layer that needs those is of the
+/// cameras that have one.
+void checkCameras(WorkPlan& plan, const Stage& stage)
+{
+  const LayerRequest& request = plan.request;
+  const std::map<std::size_t, View> views = drawnViews(plan, stage);
+  for (const auto& [camera, view] : views)
+  {
+    if (!view.model->linear() || view.instants)
+    {
+      plan.curved.insert(camera);
+    }
+  }
+  const bool none = plan.curved.size() == views.size();
+  for (const std::size_t camera : plan.curved)
+  {
+    const View& view = views.at(camera);
     const std::string who = "camera " + quoted(view.name) + " (" + view.model->name() + ") has " +
                             (view.instants ? "a rolling shutter" : "no linear projection");
-    for (const PlannedLayer& planned : linear ? std::vector<PlannedLayer>() : plan.layers)
+    for (const PlannedLayer& planned : plan.layers)
     {
       const LayerNeeds needs = planned.layer->needs(request, stage);
       const bool picture = needs.color || needs.sharp;
       const bool drawn = (needs.hits && plan.raster) || (picture && !drawsItself(request)) ||
                          (plan.drawn && (picture || needs.peeled || !needs.mattes.empty()));
       const std::string name = planned.layer->info().layer;
-      if (drawn || (needs.linear && contains(request.layers, name)))
+      if (drawn || (none && planned.linear && contains(request.layers, name)))
       {
         throw UsageError("layer " + name + ": " + who + (drawn ? ", and cannot be drawn" : ""));
-      }
-      if (needs.linear && leftOut.insert(name).second)
-      {
-        plan.empty.push_back({ name, plan.jobs.size(), plan.jobs.size(), "cameras with linear projections alone" });
       }
       for (const std::string& format : planned.formats)
       {
@@ -292,8 +306,6 @@ void checkCameras(WorkPlan& plan, const Stage& stage)
       }
     }
   }
-  const auto gone = [&](const PlannedLayer& planned) { return leftOut.count(planned.layer->info().layer) > 0; };
-  plan.layers.erase(std::remove_if(plan.layers.begin(), plan.layers.end(), gone), plan.layers.end());
 }
 
 /// Options of POV-Ray mean nothing where it does not draw and no layer is for it.
@@ -311,30 +323,40 @@ void checkPovOptions(const WorkPlan& plan)
   }
 }
 
-/// The layers of which some pictures of the run have no file, in the order of the plan. Throws UsageError for a layer
-/// that was asked for by its name and has no file at all.
+/// The layers of which some pictures of the run have no file, in the order of the plan; one that needs a linear
+/// projection and has no file at all is none of the plan's. Throws UsageError for a layer that was asked for by its
+/// name and has no file at all.
 void findEmptyLayers(WorkPlan& plan, const Stage& stage)
 {
-  for (const PlannedLayer& planned : plan.layers)
+  const auto isWithout = [&](const PlannedLayer& planned)
   {
-    const std::string needs = planned.layer->requirement();
-    if (needs.empty())
+    std::string needs;
+    std::size_t without = 0;
+    const bool all = planned.layer->requirement().empty() && !(planned.linear && !plan.curved.empty());
+    for (const Job& job : all ? std::vector<Job>() : plan.jobs)
     {
-      continue;
-    }
-    const auto without = std::count_if(plan.jobs.begin(), plan.jobs.end(),
-      [&](const Job& job) { return planned.layer->outputs(plan, stage, job, planned).empty(); });
-    if (without == 0)
-    {
-      continue;
+      const std::string own = requirementOf(plan, job, planned);
+      if (!own.empty() && outputsOf(plan, stage, job, planned).empty())
+      {
+        needs = needs.empty() ? own : needs;
+        ++without;
+      }
     }
     const std::string name = planned.layer->info().layer;
-    if (std::size_t(without) == plan.jobs.size() && contains(plan.request.layers, name))
+    if (without == plan.jobs.size() && contains(plan.request.layers, name))
     {
       throw UsageError("layer " + name + " would have no file in this run: it needs " + needs);
     }
-    plan.empty.push_back({ name, std::size_t(without), plan.jobs.size(), needs });
-  }
+    if (without > 0)
+    {
+      plan.empty.push_back({ name, without, plan.jobs.size(), needs });
+    }
+    return planned.linear && without == plan.jobs.size();
+  };
+  std::vector<PlannedLayer> kept;
+  std::copy_if(plan.layers.begin(), plan.layers.end(), std::back_inserter(kept),
+    [&](const PlannedLayer& planned) { return !isWithout(planned); });
+  plan.layers = std::move(kept);
 }
 } // namespace
 
@@ -349,8 +371,9 @@ WorkPlan makeWorkPlan(const LayerRequest& request, const Stage& stage)
     const LayerInfo info = layer->info();
     if (contains(wanted, info.layer))
     {
-      plan.layers.push_back({ layer, resolveFormats(info, plan.request), nullptr });
-      plan.needs.add(layer->needs(plan.request, stage));
+      const LayerNeeds needs = layer->needs(plan.request, stage);
+      plan.layers.push_back({ layer, resolveFormats(info, plan.request), needs.linear, nullptr });
+      plan.needs.add(needs);
     }
   }
   plan.raster = option::visibility().of(plan.request.options) == "raster";
@@ -378,110 +401,6 @@ WorkPlan makeWorkPlan(const LayerRequest& request, const Stage& stage)
   }
   findEmptyLayers(plan, stage);
   return plan;
-}
-
-namespace
-{
-using Pairs = std::vector<std::pair<std::string, std::string>>;
-
-void add(Pairs& pairs, const std::vector<const OptionRow*>& rows, const OptionValues& values)
-{
-  for (const OptionRow* row : rows)
-  {
-    pairs.emplace_back(row->name, row->text(values));
-  }
-}
-
-void addGiven(Pairs& pairs, const std::vector<const OptionRow*>& rows, const OptionValues& values)
-{
-  for (const OptionRow* row : rows)
-  {
-    if (!row->isDefault(values))
-    {
-      pairs.emplace_back(row->name, row->text(values));
-    }
-  }
-}
-
-/// A layer without an image of its own: its files are the picture, or are documents.
-bool hasImages(const WorkPlan& plan, const PlannedLayer& planned)
-{
-  return !planned.layer->records(plan, planned.formats.front()).empty();
-}
-
-/// A layer's part of the request; the picture's formats stand with how it is drawn.
-void addLayer(Pairs& pairs, const WorkPlan& plan, const PlannedLayer& planned, const Stage& stage)
-{
-  const std::string name = planned.layer->info().layer;
-  if (!hasImages(plan, planned) || name == pictureLayer)
-  {
-    return;
-  }
-  pairs.emplace_back(formatOption(name), joinedNames(planned.formats));
-  if (!isForPov(*planned.layer))
-  {
-    add(pairs, planned.layer->options(), plan.request.options);
-  }
-  if (planned.layer->needs(plan.request, stage).samples)
-  {
-    pairs.emplace_back(name + "_samples", option::samples().text(plan.request.options));
-  }
-}
-} // namespace
-
-Pairs describeRequest(const WorkPlan& plan, const Stage& stage)
-{
-  const LayerRequest& request = plan.request;
-  const OptionValues& options = request.options;
-  Pairs pairs;
-  std::vector<std::string> names;
-  for (const PlannedLayer& planned : plan.layers)
-  {
-    names.push_back(planned.layer->info().layer);
-  }
-  pairs.emplace_back("layers", joinedNames(names));
-  pairs.emplace_back("cameras", request.cameras.empty() ? "all" : joinedNames(request.cameras));
-  pairs.emplace_back("frames", request.frames
-                                 ? std::to_string(request.frames->first) + ':' + std::to_string(request.frames->last) +
-                                     ':' + std::to_string(request.frames->step)
-                                 : "all");
-  pairs.emplace_back(
-    "size", request.width ? std::to_string(request.width) + 'x' + std::to_string(request.height) : "camera's own");
-  for (const PlannedLayer& planned : plan.layers)
-  {
-    if (!hasImages(plan, planned))
-    {
-      add(pairs, planned.layer->options(), options);
-    }
-  }
-  if (plan.drawsColor())
-  {
-    add(pairs, { &option::samples() }, options);
-    addGiven(pairs, { &option::filter() }, options);
-    add(pairs, { &option::colorBits() }, options);
-    addGiven(pairs, { &option::exposure(), &option::tone() }, options);
-    pairs.emplace_back(formatOption(pictureLayer), joinedNames(plan.formatsOf(pictureLayer)));
-  }
-  for (const PlannedLayer& planned : plan.layers)
-  {
-    addLayer(pairs, plan, planned, stage);
-  }
-  if (plan.drawsColor() || plan.needs.peeled || !plan.needs.mattes.empty())
-  {
-    add(pairs, { &option::renderer() }, options);
-  }
-  addGiven(pairs, povOptionRows(), options);
-  pairs.emplace_back(option::visibility().name, plan.raster ? "raster" : "ray");
-  add(pairs, { &option::seed() }, options);
-  pairs.insert(pairs.end(), plan.noise.begin(), plan.noise.end());
-  for (const SwitchOption* row : { &option::pack(), &option::models() })
-  {
-    if (row->of(options))
-    {
-      pairs.emplace_back(row->name, "yes");
-    }
-  }
-  return pairs;
 }
 
 } // namespace dgtk

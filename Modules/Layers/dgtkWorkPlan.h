@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,7 @@ struct PlannedLayer
 {
   std::shared_ptr<const Layer> layer;
   std::vector<std::string> formats;
+  bool linear = false;          ///< LayerNeeds::linear
   std::shared_ptr<void> shared; ///< Layer::makeShared(), for a run with files
 };
 
@@ -63,6 +65,7 @@ struct DGTKLAYERS_EXPORT WorkPlan
   /// What decides the noise of the noisy layers, besides the scene.
   std::vector<std::pair<std::string, std::string>> noise;
   std::vector<Job> jobs;
+  std::set<std::size_t> curved;   ///< cameras without a linear() projection, or with a rolling shutter
   std::vector<EmptyRecord> empty; ///< layers that some pictures do not have
 
   bool drawsColor() const { return this->needs.color || this->needs.sharp; }

@@ -293,8 +293,8 @@ std::string LiveEye::missing(const std::string& layer) const
   {
     const WorkPlan plan = this->Self->planOf(image.layer);
     const PlannedLayer& planned = plan.layers.front();
-    return planned.layer->outputs(plan, *this->Self->Own, plan.jobs.front(), planned).empty()
-             ? planned.layer->requirement()
+    return outputsOf(plan, *this->Self->Own, plan.jobs.front(), planned).empty()
+             ? requirementOf(plan, plan.jobs.front(), planned)
              : std::string();
   }
   catch (const UsageError&)

@@ -121,11 +121,11 @@ dgtk::WorkPlan Wanted::plan()
       throw dgtk::UsageError(dgtk::formatOption(planned.layer->info().layer) + ": an array has one format, found " +
                              dgtk::quoted(dgtk::joinedNames(planned.formats)));
     }
-    if (planned.layer->outputs(plan, *this->stage, plan.jobs.front(), planned).empty())
+    if (dgtk::outputsOf(plan, *this->stage, plan.jobs.front(), planned).empty())
     {
       throw dgtk::UsageError("there is no layer " + planned.layer->info().layer + " of camera " +
                              dgtk::quoted(names[plan.jobs.front().camera]) + " at frame " + std::to_string(at) +
-                             ": it needs " + planned.layer->requirement());
+                             ": it needs " + dgtk::requirementOf(plan, plan.jobs.front(), planned));
     }
   }
   return plan;

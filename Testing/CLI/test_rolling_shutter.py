@@ -247,7 +247,7 @@ class RollingShutters(ManyCase):
             left = {row["layer"]: row for row in load_json(self.path(word, "manifest.json"))["empty"]}
             self.assertIn("layers without a file: ", said)
             self.assertEqual(left["calibration"], {"layer": "calibration", "pictures": 1, "of": 1,
-                                                   "needs": "cameras with linear projections alone"})
+                                                   "needs": "a camera with a linear projection and no rolling shutter"})
             self.assertEqual("pov" in left, word == "all")
             self.dgtk("verify", self.path(word))
         known = json.loads(self.dgtk("info", path, "--json").stdout)["cameras"][0]

@@ -5,6 +5,8 @@
 #include "dgtkFile.h"
 #include "dgtkPovRenderOptions.h"
 
+#include <algorithm>
+
 namespace dgtk
 {
 
@@ -65,7 +67,8 @@ public:
   }
   std::vector<std::string> notes(const WorkPlan& plan, const Stage& stage) const override
   {
-    const Job& first = plan.jobs.front();
+    const Job& first = *std::find_if(
+      plan.jobs.begin(), plan.jobs.end(), [&](const Job& job) { return plan.curved.count(job.camera) == 0; });
     const LayerRequest& request = plan.request;
     return povLines(
       *stage.at(first.frame), stage.view(first.camera, first.frame, request.width, request.height), request.options);

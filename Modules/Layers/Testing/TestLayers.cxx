@@ -56,7 +56,7 @@ TEST(Layers, WhatPicturesLackIsCounted)
       for (const Job& job : plan.jobs)
       {
         // Others, such as one cloud of all cameras of a frame, are not of each picture.
-        if (!planned.layer->requirement().empty() && planned.layer->outputs(plan, *stage, job, planned).empty())
+        if (!planned.layer->requirement().empty() && outputsOf(plan, *stage, job, planned).empty())
         {
           ++expected[planned.layer->info().layer];
         }

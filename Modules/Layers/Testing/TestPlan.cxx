@@ -273,6 +273,30 @@ TEST(Plan, WhatThePicturesCannotHave)
   EXPECT_THAT(refusal(requestOf({ "color" }), *lens), IsEmpty());
 }
 
+using Left = std::map<std::string, std::size_t>;
+
+/// Pictures without the layers that need linear projections.
+Left leftOut(const WorkPlan& plan)
+{
+  Left left;
+  for (const EmptyRecord& one : plan.empty)
+  {
+    if (one.needs == "a camera with a linear projection and no rolling shutter")
+    {
+      EXPECT_TRUE(left.emplace(one.layer, one.pictures).second) << one.layer;
+      EXPECT_EQ(one.of, plan.jobs.size());
+    }
+  }
+  return left;
+}
+
+std::ptrdiff_t countOf(const WorkPlan& plan, const Stage& stage, const Job& job, const std::string& layer)
+{
+  const std::vector<LayerOutput> outputs = outputsOf(plan, stage, job);
+  return std::count_if(
+    outputs.begin(), outputs.end(), [&](const LayerOutput& output) { return output.layer == layer; });
+}
+
 TEST(Plan, WhatIsDrawnNeedsALinearProjection)
 {
   const std::string round = R"("model": "equirectangular")";
@@ -293,27 +317,33 @@ TEST(Plan, WhatIsDrawnNeedsALinearProjection)
   EXPECT_THAT(
     refused("matting", { { "matte", "crate" }, { "renderer", "vtk" } }), HasSubstr("layer matting: camera 'f'"));
   EXPECT_THAT(refused("matting", { { "matte", "crate" } }), IsEmpty());
-  EXPECT_EQ(refused("calibration"), "layer calibration: camera 'f' (equirectangular) has no linear projection");
+  EXPECT_THAT(refused("calibration"), IsEmpty());
   EXPECT_EQ(refused("depth", { { "depth_format", "npy,dgd" } }),
     "layer depth as dgd: camera 'f' (equirectangular) has no linear projection");
   LayerRequest straight = requestOf({ "calibration" });
   straight.cameras = { "a" };
   EXPECT_THAT(refusal(straight, *stage), IsEmpty());
+  straight.cameras = { "f", "g" };
+  EXPECT_EQ(refusal(straight, *stage), "layer calibration: camera 'f' (equirectangular) has no linear projection");
 
-  const WorkPlan all = makeWorkPlan(requestOf({ "all" }), *stage);
-  std::map<std::string, std::size_t> left;
-  for (const EmptyRecord& one : all.empty)
+  // Cameras that have one keep what needs one, whether it was named or not.
+  for (const std::vector<std::string>& layers : { std::vector<std::string>{ "all" }, { "calibration", "pov" } })
   {
-    if (one.needs == "cameras with linear projections alone")
+    EXPECT_EQ(leftOut(makeWorkPlan(requestOf(layers), *stage)), (Left{ { "calibration", 8 }, { "pov", 8 } }));
+    const WorkPlan plan = makeWorkPlan(requestOf(layers), *stage);
+    for (const Job& job : plan.jobs)
     {
-      EXPECT_TRUE(left.emplace(one.layer, one.pictures).second) << one.layer;
-      EXPECT_EQ(one.of, all.jobs.size());
+      EXPECT_EQ(countOf(plan, *stage, job, "pov"), job.camera == 0 ? 1 : 0);
+      EXPECT_EQ(countOf(plan, *stage, job, "calibration"), job.camera == 0 ? 1 : 0);
     }
   }
-  EXPECT_EQ(left, (std::map<std::string, std::size_t>{ { "calibration", 12 }, { "pov", 12 } }));
+  LayerRequest curved = requestOf({ "all" });
+  curved.cameras = { "f", "g" };
+  const WorkPlan all = makeWorkPlan(curved, *stage);
+  EXPECT_EQ(leftOut(all), (Left{ { "calibration", 8 }, { "pov", 8 } }));
   for (const PlannedLayer& planned : all.layers)
   {
-    EXPECT_EQ(left.count(planned.layer->info().layer), 0u);
+    EXPECT_FALSE(planned.linear) << planned.layer->info().layer;
   }
 }
 

@@ -368,7 +368,7 @@ bool Run::keep(const Job& job)
   std::vector<std::string> shared;
   for (const PlannedLayer& planned : this->Plan.layers)
   {
-    for (const LayerOutput& output : planned.layer->outputs(this->Plan, *this->Scene, job, planned))
+    for (const LayerOutput& output : outputsOf(this->Plan, *this->Scene, job, planned))
     {
       for (const std::string& name : output.files())
       {
