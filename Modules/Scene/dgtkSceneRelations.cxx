@@ -283,7 +283,7 @@ private:
     if ((camera.width == 0) != (camera.height == 0))
     {
       this->fail(
-        Kind::Camera, i, camera.width == 0 ? "width" : "height", "is missing", "both width and height, or neither");
+        Kind::Camera, i, camera.width == 0 ? "width" : "height", "is missing or 0", "both width and height, or neither");
     }
     if (camera.K && camera.width == 0)
     {

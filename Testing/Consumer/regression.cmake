@@ -21,3 +21,18 @@ foreach(height IN ITEMS 1.5 1.6 1.5)
     message(FATAL_ERROR "pyramid of height ${height}: expected ${expected}\n${output}")
   endif()
 endforeach()
+
+# Components are the targets; one that there is not is named.
+file(WRITE "${FOLDER}/components/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)
+project(Components LANGUAGES C CXX)
+find_package(DGTk 0.1 REQUIRED COMPONENTS Scene Pipeline OPTIONAL_COMPONENTS Nothing)
+if(NOT DGTk_Scene_FOUND OR DGTk_Nothing_FOUND)
+  message(FATAL_ERROR \"DGTk_Scene_FOUND '\${DGTk_Scene_FOUND}', DGTk_Nothing_FOUND '\${DGTk_Nothing_FOUND}'\")
+endif()
+find_package(DGTk 0.1 REQUIRED COMPONENTS Scene Painting)
+")
+execute_process(COMMAND "${CMAKE_COMMAND}" -S "${FOLDER}/components" -B "${FOLDER}/components/build" "-DDGTk_ROOT=${PREFIX}"
+  OUTPUT_QUIET ERROR_VARIABLE output)
+if(NOT output MATCHES "DGTk has no component Painting")
+  message(FATAL_ERROR "a component that there is not:\n${output}")
+endif()

@@ -246,7 +246,7 @@ TEST(SceneRefusals, JsonValues)
       "180)" },
     { withCamera("\"fovY\": {\"keys\": [[0, 60],\n[1, -5]]}"), "a.json:5: cameras[0].fovY.keys[1][1] is out of range" },
     { withCamera("\"width\": 640"),
-      "a.json:3: cameras[0].height is missing (expected both width and height, or neither)" },
+      "a.json:3: cameras[0].height is missing or 0 (expected both width and height, or neither)" },
     { withCamera("\"K\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]"), "cameras[0].K has no image size" },
     { withCamera("\"K\": [[1, 0, 0], [0, -1, 0], [0, 0, 1]]"),
       "cameras[0].K is not a camera matrix (expected [[fx, s, cx], "
