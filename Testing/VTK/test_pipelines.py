@@ -71,6 +71,33 @@ class Pipelines(unittest.TestCase):
                        lambda: renderer.SetBackground(0, 0, 1), lambda: actor.VisibilityOff(), lambda: source.SetLayers("depth")):
             self.assertEqual(executes(change), 1)
 
+    def test_a_pipeline_that_failed_is_refused(self):
+        """Its data are empty as if they were meant to be; an actor without any data is nothing."""
+        vtk.vtkObject.GlobalWarningDisplayOff()
+        self.addCleanup(vtk.vtkObject.GlobalWarningDisplayOn)
+        for reader, drawn, says in ((vtk.vtkSTLReader, True, "vtkSTLReader failed .CannotOpenFileError"),
+                                    (vtk.vtkOBJReader, False, "its pipeline failed"),
+                                    (vtk.vtkXMLPolyDataReader, True, "its pipeline failed")):
+            renderer = scenes.robot_arm()
+            before = dgtk.truth(renderer, "objects", size=(40, 30))["objects"]
+            lost = reader()
+            lost.SetFileName("/nowhere/part")
+            smooth = vtk.vtkPolyDataNormals()
+            smooth.SetInputConnection(lost.GetOutputPort())
+            actor = vtk.vtkActor()
+            actor.SetMapper(vtk.vtkPolyDataMapper())
+            renderer.AddActor(actor)
+            numpy.testing.assert_array_equal(before, dgtk.truth(renderer, "objects", size=(40, 30))["objects"])
+            actor.GetMapper().SetInputConnection(smooth.GetOutputPort())
+            if drawn:
+                smooth.Update()  # as a window does
+            with self.assertRaisesRegex(ValueError, says):
+                dgtk.truth(renderer, "objects", size=(40, 30))
+            if reader is vtk.vtkSTLReader:  # others tell once or twice
+                with self.assertWarnsRegex(UserWarning, says):
+                    found = dgtk.truth(renderer, "objects", size=(40, 30), unsupported="skip")["objects"]
+                numpy.testing.assert_array_equal(before, found)
+
     def test_it_sees_what_actors_do_not_know_of(self):
         """Blocks and their colours, the shape of a glyph, the picture of a texture, a plane: each change is in the next output."""
         blocks, glyphs = scenes.blocks(), scenes.glyph_mapper()

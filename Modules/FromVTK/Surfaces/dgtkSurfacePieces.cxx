@@ -2,6 +2,7 @@
 #include "dgtkSurfacePieces.h"
 
 #include <vtkActor.h>
+#include <vtkAlgorithmOutput.h>
 #include <vtkCellData.h>
 #include <vtkCompositeDataDisplayAttributes.h>
 #include <vtkCompositeDataSet.h>
@@ -9,6 +10,8 @@
 #include <vtkDataObjectTree.h>
 #include <vtkDataObjectTreeRange.h>
 #include <vtkDataSetSurfaceFilter.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMapper.h>
 #include <vtkNew.h>
@@ -17,6 +20,7 @@
 
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace dgtk
 {
@@ -241,6 +245,53 @@ void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece, double 
   }
 }
 
+namespace
+{
+/// Which step of the pipeline that ends here has an error code; null for none. Not all readers leave one.
+vtkAlgorithm* failedStep(vtkAlgorithm& step, std::set<vtkAlgorithm*>& seen)
+{
+  if (step.GetErrorCode() != vtkErrorCode::NoError)
+  {
+    return &step;
+  }
+  for (int port = 0; port < step.GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < step.GetNumberOfInputConnections(port); ++i)
+    {
+      vtkAlgorithm* const input = step.GetInputAlgorithm(port, i);
+      vtkAlgorithm* const failed = input != nullptr && seen.insert(input).second ? failedStep(*input, seen) : nullptr;
+      if (failed != nullptr)
+      {
+        return failed;
+      }
+    }
+  }
+  return nullptr;
+}
+
+/// Why a mapper's pipeline gives no data, "" when it does. It says so once only, and its data are empty then as if they
+/// were meant to be.
+std::string pipelineFailure(vtkMapper& mapper)
+{
+  bool updated = true;
+  for (int port = 0; port < mapper.GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < mapper.GetNumberOfInputConnections(port); ++i)
+    {
+      vtkAlgorithmOutput& output = *mapper.GetInputConnection(port, i);
+      updated = output.GetProducer()->GetExecutive()->Update(output.GetIndex()) != 0 && updated;
+    }
+  }
+  std::set<vtkAlgorithm*> seen;
+  vtkAlgorithm* const failed = failedStep(mapper, seen);
+  if (failed != nullptr)
+  {
+    return classOf(*failed) + " failed (" + vtkErrorCode::GetStringFromErrorCode(failed->GetErrorCode()) + ')';
+  }
+  return updated ? std::string() : "its pipeline failed";
+}
+} // namespace
+
 DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported)
 {
   vtkMapper& mapper = *actor.actor->GetMapper();
@@ -250,6 +301,12 @@ DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported)
   }
   if (mapper.GetStatic() == 0)
   {
+    const std::string failure = pipelineFailure(mapper);
+    if (!failure.empty())
+    {
+      unsupported.add(actor.name + ": " + failure);
+      return {};
+    }
     mapper.Update();
   }
   if (mapper.IsA("vtkGlyph3DMapper") != 0)
