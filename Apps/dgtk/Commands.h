@@ -37,9 +37,6 @@ void print(const std::string& text);
 /// Of the formats that datasets can be exported to.
 std::vector<std::string> exporterNames();
 
-/// Throws InputError for what is not the folder of a complete dataset.
-void requireDataset(const std::string& folder);
-
 /// Gets the process ready for OpenGL before anything uses it; may start the program anew (OSMesa needs a preload).
 void prepareGL(const std::string& backend, int threads);
 

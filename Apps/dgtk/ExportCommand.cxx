@@ -9,6 +9,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportShards.h"
 #include "dgtkExporterEntry.h"
+#include "dgtkFolderContents.h"
 
 #include <algorithm>
 #include <optional>

@@ -4,6 +4,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkFolderContents.h"
 #include "dgtkModelReader.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"

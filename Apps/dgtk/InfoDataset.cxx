@@ -19,17 +19,6 @@
 namespace dgtk::app
 {
 
-void requireDataset(const std::string& folder)
-{
-  std::error_code code;
-  if (std::filesystem::exists(folder + "/manifest.json", code))
-  {
-    return;
-  }
-  requireFinished(folder);
-  throw InputError(folder, "is not a dataset", "a folder with manifest.json");
-}
-
 namespace
 {
 /// Of a folder of datasets.

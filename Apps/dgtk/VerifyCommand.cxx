@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
+#include "dgtkFolderContents.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
 #include "dgtkJson.h"

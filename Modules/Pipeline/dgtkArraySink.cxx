@@ -15,41 +15,27 @@ namespace dgtk
 
 namespace
 {
-enum Surface
-{
-  Counts,
-  Colors,
-  Depths,
-  Splats
-};
-
-template <typename T>
-void append(LayerArray& array, const T* values, std::size_t count)
-{
-  const auto* const bytes = reinterpret_cast<const std::byte*>(values);
-  array.data.insert(array.data.end(), bytes, bytes + count * sizeof(T));
-}
-
-LayerArray arrayOf(const LayerOutput& output, PixelType type, int channels)
+LayerArray arrayOf(const std::string& name, PixelType type, int channels)
 {
   LayerArray array;
-  array.name = output.name;
+  array.name = name;
   array.type = type;
   array.channels = channels;
   return array;
 }
 
-std::vector<LayerArray> surfaceArrays(const LayerOutput& output)
+} // namespace
+
+std::vector<LayerArray> surfaceArrays(const std::string& name)
 {
-  std::vector<LayerArray> arrays{ arrayOf(output, PixelType::UInt32, 1), arrayOf(output, PixelType::UInt8, 4),
-    arrayOf(output, PixelType::Float64, 1), arrayOf(output, PixelType::UInt32, 1) };
+  std::vector<LayerArray> arrays{ arrayOf(name, PixelType::UInt32, 1), arrayOf(name, PixelType::UInt8, 4),
+    arrayOf(name, PixelType::Float64, 1), arrayOf(name, PixelType::UInt32, 1) };
   for (std::size_t i = 0; i < arrays.size(); ++i)
   {
     arrays[i].part = ldiParts[i];
   }
   return arrays;
 }
-} // namespace
 
 ArraySink::ArraySink(const JobContext& context, const std::vector<LayerOutput>& outputs)
 {
@@ -68,7 +54,7 @@ void ArraySink::rows(std::size_t output, const Rows& rows)
   Values& values = this->Outputs[output];
   if (values.arrays.empty())
   {
-    values.arrays.push_back(arrayOf(values.output, rows.type(), rows.channels()));
+    values.arrays.push_back(arrayOf(values.output.name, rows.type(), rows.channels()));
     values.arrays.front().data.reserve(rows.rowBytes() * std::size_t(values.output.height));
   }
   append(values.arrays.front(), rows.data(), rows.bytes());
@@ -79,15 +65,15 @@ void ArraySink::surfaces(std::size_t output, const LdiRows& rows)
   Values& values = this->Outputs[output];
   if (values.arrays.empty())
   {
-    values.arrays = surfaceArrays(values.output);
+    values.arrays = surfaceArrays(values.output.name);
   }
-  append(values.arrays[Counts], rows.counts.data(), rows.counts.size());
+  append(values.arrays[SurfaceCounts], rows.counts.data(), rows.counts.size());
   for (const LdiSurface& surface : rows.surfaces)
   {
     const std::array<std::uint8_t, 4> color = ldiColor(surface.rgba);
-    append(values.arrays[Colors], color.data(), color.size());
-    append(values.arrays[Depths], &surface.depth, 1);
-    append(values.arrays[Splats], &surface.splatIndex, 1);
+    append(values.arrays[SurfaceColors], color.data(), color.size());
+    append(values.arrays[SurfaceDepths], &surface.depth, 1);
+    append(values.arrays[SurfaceSplats], &surface.splatIndex, 1);
   }
 }
 
@@ -100,7 +86,7 @@ void ArraySink::ranks(std::size_t output, const std::vector<CoveredId>& ranks, s
 void ArraySink::document(std::size_t output, const std::string& text)
 {
   Values& values = this->Outputs[output];
-  LayerArray array = arrayOf(values.output, PixelType::UInt8, 1);
+  LayerArray array = arrayOf(values.output.name, PixelType::UInt8, 1);
   array.format = values.output.formats.front();
   append(array, text.data(), text.size());
   values.arrays.push_back(std::move(array));
@@ -114,7 +100,7 @@ void ArraySink::completeRanks(Values& values) const
   {
     most = std::max(most, run.size() + run.size() % 2); // files have two ranks in four channels
   }
-  LayerArray array = arrayOf(values.output, PixelType::Float32, static_cast<int>(2 * most));
+  LayerArray array = arrayOf(values.output.name, PixelType::Float32, static_cast<int>(2 * most));
   std::vector<float> pixel(2 * most);
   for (std::size_t i = 0; i < values.ranks.size(); ++i)
   {

@@ -53,6 +53,22 @@ private:
   std::vector<Values> Outputs;
 };
 
+/// The arrays of a layered depth image, without a surface yet, and surfaces that are added to them.
+enum SurfaceArray
+{
+  SurfaceCounts,
+  SurfaceColors,
+  SurfaceDepths,
+  SurfaceSplats
+};
+std::vector<LayerArray> surfaceArrays(const std::string& name);
+template <typename T>
+void append(LayerArray& array, const T* values, std::size_t count)
+{
+  const auto* const bytes = reinterpret_cast<const std::byte*>(values);
+  array.data.insert(array.data.end(), bytes, bytes + count * sizeof(T));
+}
+
 /// Throws MachineError where a picture's arrays could not fit into the machine's memory.
 void requireMemory(const WorkPlan& plan, const Stage& stage, const Job& job);
 

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderer.h"
 
-#include "dgtkArraySink.h"
 #include "dgtkFailure.h"
 #include "dgtkInterpreterPause.h"
 #include "dgtkKeptSource.h"
+#include "dgtkLayerArrays.h"
 #include "dgtkScene.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
 #include "dgtkText.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkSmartPointer.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkUnsignedIntArray.h"
-#include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,23 +26,6 @@ vtkStandardNewMacro(dgtkRenderer);
 
 namespace
 {
-vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
-{
-  switch (type)
-  {
-    case dgtk::PixelType::UInt8:
-      return vtkSmartPointer<vtkUnsignedCharArray>::New();
-    case dgtk::PixelType::UInt16:
-      return vtkSmartPointer<vtkUnsignedShortArray>::New();
-    case dgtk::PixelType::UInt32:
-      return vtkSmartPointer<vtkUnsignedIntArray>::New();
-    case dgtk::PixelType::Float32:
-      return vtkSmartPointer<vtkFloatArray>::New();
-    default:
-      return vtkSmartPointer<vtkDoubleArray>::New();
-  }
-}
-
 /// Throws UsageError for layers that are not known or not given as arrays.
 void requireArrays(const std::vector<std::string>& layers)
 {
@@ -192,13 +169,11 @@ struct dgtkRenderer::Internal
   int height = 0;
   dgtk::KeptSource source;
   std::atomic<pid_t> drawing{ 0 }; // the process in which one is under way; one that was forked may go on
-  std::vector<dgtk::LayerArray> results;
-  std::vector<vtkSmartPointer<vtkDataArray>> arrays; // one a result
+  dgtk::LayerArrays arrays;
 
   bool render(const std::function<std::vector<std::string>()>& layers);
   std::vector<dgtk::LayerArray> draw(Wanted wanted, int& columns, int& rows);
   std::vector<dgtk::LayerArray> drawPicture(Wanted& wanted, int& columns, int& rows);
-  void keep(std::vector<dgtk::LayerArray> drawn);
 };
 
 bool dgtkRenderer::Internal::render(const std::function<std::vector<std::string>()>& layers)
@@ -217,32 +192,14 @@ bool dgtkRenderer::Internal::render(const std::function<std::vector<std::string>
     this->width = columns;
     this->height = rows;
     this->failure.clear();
-    this->keep(std::move(drawn));
+    this->arrays = dgtk::LayerArrays(std::move(drawn));
     return true;
   }
   catch (...)
   {
-    this->results.clear();
-    this->arrays.clear();
+    this->arrays = {};
     this->failure.take();
     return false;
-  }
-}
-
-void dgtkRenderer::Internal::keep(std::vector<dgtk::LayerArray> drawn)
-{
-  this->arrays.clear();
-  this->results = std::move(drawn);
-  for (dgtk::LayerArray& result : this->results)
-  {
-    const vtkSmartPointer<vtkDataArray> array = arrayFor(result.type);
-    const std::size_t tuple = dgtk::bytesOf(result.type) * std::size_t(result.channels);
-    array->SetName(result.name.c_str());
-    array->SetNumberOfComponents(result.channels);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(result.data.size() / tuple));
-    std::copy_n(result.data.data(), result.data.size(), static_cast<std::byte*>(array->GetVoidPointer(0)));
-    result.data = {};
-    this->arrays.push_back(array);
   }
 }
 
@@ -369,27 +326,15 @@ bool dgtkRenderer::RenderLayers(const std::string& layers)
   return this->Self->render([&layers] { return dgtk::splitNames(layers, "layers"); });
 }
 
-int dgtkRenderer::GetNumberOfOutputs() const { return static_cast<int>(this->Self->arrays.size()); }
+int dgtkRenderer::GetNumberOfOutputs() const { return this->Self->arrays.count(); }
 
-vtkDataArray* dgtkRenderer::GetOutput(int index) const
-{
-  return index >= 0 && index < this->GetNumberOfOutputs() ? this->Self->arrays[std::size_t(index)].Get() : nullptr;
-}
+vtkDataArray* dgtkRenderer::GetOutput(int index) const { return this->Self->arrays.array(index); }
 
-std::string dgtkRenderer::GetOutputPart(int index) const
-{
-  return this->GetOutput(index) != nullptr ? this->Self->results[std::size_t(index)].part : std::string();
-}
+std::string dgtkRenderer::GetOutputPart(int index) const { return this->Self->arrays.part(index); }
 
-std::string dgtkRenderer::GetOutputFormat(int index) const
-{
-  return this->GetOutput(index) != nullptr ? this->Self->results[std::size_t(index)].format : std::string();
-}
+std::string dgtkRenderer::GetOutputFormat(int index) const { return this->Self->arrays.format(index); }
 
-bool dgtkRenderer::IsOutputImage(int index) const
-{
-  return this->GetOutput(index) != nullptr && this->Self->results[std::size_t(index)].isImage;
-}
+bool dgtkRenderer::IsOutputImage(int index) const { return this->Self->arrays.isImage(index); }
 
 int dgtkRenderer::GetWidth() const { return this->Self->width; }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package beyond single pictures: scenes of dicts, datasets, stubs and reference."""
 import ast
+import functools
 import inspect
 import json
 import math
@@ -437,12 +438,12 @@ class Stubs(Case):
         for node in self.named(ast.ClassDef):
             kind = getattr(dgtk, node.name)
             bases = [base.value.id.lower() if isinstance(base, ast.Subscript) else base.id for base in node.bases]  # Dict[...] is dict
-            self.assertEqual(bases, [base.__name__ for base in kind.__bases__])
+            self.assertEqual(bases, [base.__name__ for base in kind.__bases__ if base is not object])
             methods = {function.name: function for function in self.named(ast.FunctionDef, node)}
             self.assertEqual(set(methods), {name for name in vars(kind) if not name.startswith("_")} - OF_VTK)
             for name, function in methods.items():
                 thing = vars(kind)[name]
-                if isinstance(thing, property):
+                if isinstance(thing, (property, functools.cached_property)):
                     self.assertEqual([one.id for one in function.decorator_list], ["property"])
                     continue
                 count = len(function.args.args) - ("staticmethod" not in [one.id for one in function.decorator_list])
@@ -454,8 +455,9 @@ class Stubs(Case):
     def test_everything_public_has_a_docstring(self):
         for name in dgtk.__all__:
             self.assertGreater(len(inspect.getdoc(getattr(dgtk, name))), 40)
-        for name, thing in vars(dgtk.Scene).items():
-            self.assertTrue(name.startswith("_") or inspect.getdoc(thing), name)
+        for kind in (dgtk.Scene, dgtk.Dataset):
+            for name, thing in vars(kind).items():
+                self.assertTrue(name.startswith("_") or inspect.getdoc(thing), name)
 
     def test_the_reference_is_made_from_the_docstrings(self):
         script = os.path.join(SOURCE, "Utilities", "Maintenance", "update_python_reference")

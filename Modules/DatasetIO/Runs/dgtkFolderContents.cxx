@@ -118,6 +118,16 @@ void requireFinished(const std::string& folder)
   }
 }
 
+void requireDataset(const std::string& folder)
+{
+  std::error_code code;
+  if (!fs::exists(fs::path(folder) / manifestName, code))
+  {
+    requireFinished(folder);
+    throw InputError(folder, "is not a dataset", "a folder with manifest.json");
+  }
+}
+
 void requireOutsideDatasets(const std::string& path)
 {
   std::error_code code;

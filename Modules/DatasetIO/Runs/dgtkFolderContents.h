@@ -35,6 +35,9 @@ DGTKDATASETIO_EXPORT std::string describe(FolderContents contents);
 /// parts that are not merged.
 DGTKDATASETIO_EXPORT void requireFinished(const std::string& folder);
 
+/// As requireFinished(), and for a folder without a manifest.
+DGTKDATASETIO_EXPORT void requireDataset(const std::string& folder);
+
 /// Throws UsageError where a file or folder to be written is below the folder of a dataset, which is no sound one with
 /// a file that its manifest does not list, and where it is the manifest of a folder of datasets. The path need not be
 /// there.
