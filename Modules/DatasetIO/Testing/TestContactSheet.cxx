@@ -307,6 +307,18 @@ TEST(Canvas, TextIsCutAtThePicturesBorders)
   }
 }
 
+TEST(Canvas, EachLetterHasItsOwnShape)
+{
+  std::set<std::array<std::uint8_t, 7>> shapes{ glyphOf('\x7f') };
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  for (const char letter : letters)
+  {
+    EXPECT_TRUE(shapes.insert(glyphOf(letter)).second) << letter;
+  }
+  EXPECT_EQ(glyphOf('T')[0], 0x1f) << "a bar, and what stands below its middle";
+  EXPECT_EQ(glyphOf('T')[6], 0x04);
+}
+
 TEST(ContactSheet, RowsAreFramesColumnsAreLayers)
 {
   const TemporaryFolder folder;

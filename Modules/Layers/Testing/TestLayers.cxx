@@ -39,6 +39,17 @@ TEST(Layers, MeanWhatTheirUnitsAndFramesImply)
 TEST(Layers, WhatPicturesLackIsCounted)
 {
   const auto stage = Stage::load(readScene(test::sourceFile("Data/Scenes/demo.json")));
+  const SceneDescription still; // without a motion there is no flow, whoever asks
+  for (const LayerInfo& info : generatorLayers())
+  {
+    const bool follows = info.layer.rfind("flow_", 0) == 0 || info.layer == "sceneflow";
+    if (follows || info.layer.rfind("disparity_", 0) == 0)
+    {
+      ASSERT_NE(info.appliesTo, nullptr) << info.layer;
+      EXPECT_EQ(info.appliesTo(stage->description()), true) << info.layer;
+      EXPECT_EQ(info.appliesTo(still), false) << info.layer;
+    }
+  }
   for (const bool single : { false, true })
   {
     LayerRequest request;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPlaceBody.h"
+#include "dgtkRandomScene.h"
 #include "dgtkSampleModels.h"
 #include "dgtkTestSupport.h"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <vector>
 
 using namespace dgtk;
 
@@ -53,4 +55,22 @@ TEST(TriangleTree, ThePointOfATriangleThatIsNearest)
   {
     EXPECT_LT((tree.nearest(where) - expected).norm(), rounding) << where.transpose();
   }
+}
+
+TEST(RandomScene, SaysWhereItIsRandom)
+{
+  const auto scene = RandomScene::ofText(R"({ "parameters": { "size": { "uniform": [1, 2] } },
+    "objects": [ { "name": "a", "scale": "$size", "position": [0, { "normal": [0, 1] }, 0] },
+      { "name": "b", "count": 3, "place": { "on": "a", "clearance": { "uniform": [0, 1] } } } ],
+    "lights": [ { "name": "l", "intensity": 2 } ] })",
+    ".");
+  std::vector<std::string> found;
+  for (const RandomScene::Place& place : scene->places())
+  {
+    found.push_back(place.path + ' ' + place.word);
+  }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found,
+    (std::vector<std::string>{ "objects[0].position[1] normal", "objects[0].scale $size", "objects[1].count count",
+      "objects[1].place place", "objects[1].place.clearance uniform", "parameters.size uniform" }));
 }
