@@ -364,6 +364,11 @@ except KeyboardInterrupt:
                               capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stdout), (0, "interrupted True False\n"), done.stderr)
 
+    def test_a_list_of_frames_is_those(self):
+        for frames, expected in (([0, 2], [0, 2]), ((0, 2), [0, 1, 2]), (numpy.array([1, 2]), [1, 2]), ([1], [1]), (range(0, 3, 2), [0, 2])):
+            manifest = dgtk.generate(DEMO, self.path("out"), layers="calibration", cameras="left", frames=frames, size=(32, 24), replace=True)
+            self.assertEqual([file["frame"] for file in manifest["files"] if file.get("layer") == "calibration"], expected)
+
     def test_refusals(self):
         self.write("file", "text")
         for wrong, kind, says in (
@@ -373,8 +378,12 @@ except KeyboardInterrupt:
                 ({"frames": (2, 1)}, ValueError, "frames: expected an integer, .first, last. or"),
                 ({"frames": 77}, ValueError, "the scene has frames 0 to 2, found 77"),
                 ({"frames": "all"}, ValueError, "frames: expected"),
-                ({"frames": range(0)}, ValueError, "frames: expected an integer, .first, last. or .* or a range, found an object of range"),
+                ({"frames": range(0)}, ValueError, "frames: expected an integer, .first, last. or .* a range, or a list of frames one step apart, found an object of range"),
                 ({"frames": range(2, -1, -1)}, ValueError, "frames: expected"),
+                ({"frames": [0, 1, 3]}, ValueError, "frames: expected .* found .0, 1, 3."),
+                ({"frames": []}, ValueError, "frames: expected"),
+                ({"frames": (0, 1, 1, 1)}, ValueError, "frames: expected"),
+                ({"frames": [0, "1"]}, ValueError, "frames: expected"),
                 ({"size": (0, 5)}, ValueError, "size: expected"),
                 ({"progress": 3}, ValueError, "progress: expected something to call, found 3"),
                 ({"resume": 1}, ValueError, "resume: expected True or False"),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What dgtk has, for type checkers and editors; a test compares it with the package.
 import os
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkObject
@@ -14,6 +14,8 @@ __all__ = ["load", "scene", "Scene", "sample", "random", "render", "generate", "
            "dgtkDepthFromZBuffer"]
 
 _Path = Union[str, "os.PathLike[str]"]
+_Size = Union[Tuple[int, int], List[int], numpy.ndarray]
+_Frames = Union[None, SupportsIndex, range, Tuple[int, int], Tuple[int, int, int], List[int], numpy.ndarray]
 _Option = Union[bool, float, str, Sequence[Union[float, str]]]
 
 class dgtkSceneSampler(vtkObject):
@@ -206,8 +208,8 @@ def render(
     scene: dgtkScene,
     layers: str,
     camera: Optional[str] = None,
-    frame: Optional[int] = None,
-    size: Optional[Tuple[int, int]] = None,
+    frame: Optional[SupportsIndex] = None,
+    size: Optional[_Size] = None,
     renderer: Union[None, str, dgtkRenderer] = None,
     keep: Optional[dgtkRenderer] = None,
     **options: _Option,
@@ -217,8 +219,8 @@ def render(
     scene: dgtkScene,
     layers: Sequence[str],
     camera: Optional[str] = None,
-    frame: Optional[int] = None,
-    size: Optional[Tuple[int, int]] = None,
+    frame: Optional[SupportsIndex] = None,
+    size: Optional[_Size] = None,
     renderer: Union[None, str, dgtkRenderer] = None,
     keep: Optional[dgtkRenderer] = None,
     **options: _Option,
@@ -227,9 +229,9 @@ def generate(
     scene: Union[_Path, dgtkScene],
     folder: _Path,
     layers: Union[None, str, Sequence[str]] = None,
-    frames: Union[None, int, range, Tuple[int, int], Tuple[int, int, int]] = None,
+    frames: _Frames = None,
     cameras: Union[None, str, Sequence[str]] = None,
-    size: Optional[Tuple[int, int]] = None,
+    size: Optional[_Size] = None,
     progress: Optional[Callable[[int, int], object]] = None,
     resume: bool = False,
     replace: bool = False,
@@ -243,7 +245,7 @@ def export(
     format: str,
     folder: _Path,
     cameras: Union[None, str, Sequence[str]] = None,
-    frames: Union[None, int, range, Tuple[int, int], Tuple[int, int, int]] = None,
+    frames: _Frames = None,
     progress: Optional[Callable[[int, int], object]] = None,
     resume: bool = False,
     replace: bool = False,
@@ -267,9 +269,9 @@ class Dataset:
     def classes(self) -> List[Dict[str, Any]]: ...
     @property
     def manifest(self) -> Dict[str, Any]: ...
-    def camera(self, camera: Optional[str] = None, frame: Optional[int] = None) -> Dict[str, Any]: ...
-    def poses(self, frame: Optional[int] = None) -> List[Dict[str, Any]]: ...
-    def read(self, layers: Union[str, Sequence[str]], camera: Optional[str] = None, frame: Optional[int] = None) -> Any: ...
+    def camera(self, camera: Optional[str] = None, frame: Optional[SupportsIndex] = None) -> Dict[str, Any]: ...
+    def poses(self, frame: Optional[SupportsIndex] = None) -> List[Dict[str, Any]]: ...
+    def read(self, layers: Union[str, Sequence[str]], camera: Optional[str] = None, frame: Optional[SupportsIndex] = None) -> Any: ...
 
 def dataset(folder: _Path) -> Dataset: ...
 def exporters() -> Dict[str, Tuple[List[str], str]]: ...
@@ -283,13 +285,13 @@ class Truth(Dict[str, Any]):
     R: numpy.ndarray
     t: numpy.ndarray
 
-def snapshot(view: object, size: Optional[Tuple[int, int]] = None, unsupported: str = "refuse") -> Snapshot: ...
+def snapshot(view: object, size: Optional[_Size] = None, unsupported: str = "refuse") -> Snapshot: ...
 def truth(
     view: object,
     layers: Union[str, Sequence[str]],
-    size: Optional[Tuple[int, int]] = None,
+    size: Optional[_Size] = None,
     unsupported: str = "refuse",
     **options: _Option,
 ) -> Truth: ...
 def correspond(first: dgtkSnapshot, second: dgtkSnapshot) -> Tuple[numpy.ndarray, numpy.ndarray]: ...
-def visible_cells(view: object, size: Optional[Tuple[int, int]] = None, unsupported: str = "refuse") -> List[numpy.ndarray]: ...
+def visible_cells(view: object, size: Optional[_Size] = None, unsupported: str = "refuse") -> List[numpy.ndarray]: ...

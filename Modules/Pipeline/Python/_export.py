@@ -14,7 +14,8 @@ def export(dataset, format, folder, cameras=None, frames=None, progress=None, re
 
     dataset: the folder of a finished dataset, str or path-like. format: the name of a format, see `exporters()`.
     folder: where the export goes. cameras: a name or a list of names; default: all. frames: an integer, (first, last)
-    or (first, last, step), both ends included, or a range; default: all. progress: called in this thread as
+    or (first, last, step), both ends included, a range, or a list of frames one step
+    apart; default: all. progress: called in this thread as
     progress(done, total), as in generate().
     resume: complete an interrupted export of the same request. replace: remove another export, or an interrupted one,
     that the folder holds; not with resume. Options, which are listed below, are those of `dgtk export`; those of other

@@ -4,6 +4,8 @@ import json
 import os
 import tempfile
 
+import numpy
+
 from . import _check
 from ._render import require_scene, with_options
 from ._vtk import write_files
@@ -15,16 +17,23 @@ _PATIENCE = 100  # milliseconds until an interrupt is noticed
 
 def frames_of(value):
     """first, last, step."""
-    if isinstance(value, range) and value:
-        value = value[0], value[-1], value.step
-    numbers = list(value) if isinstance(value, (list, tuple)) else [value]
     try:
-        first, last, step = [_check.integer("frames", one) for one in (numbers + numbers[:1] if len(numbers) == 1 else numbers) + [1] * (len(numbers) < 3)]
-    except ValueError:
-        first, last, step = 0, -1, 0
-    if last < first or step < 1:
-        _check.fail("frames", "an integer, (first, last) or (first, last, step) with first <= last and step >= 1, or a range", value)
-    return first, last, step
+        if isinstance(value, range) and value and value.step > 0:  # however many
+            return value[0], value[-1], value.step
+        if isinstance(value, (list, numpy.ndarray)):
+            frames = [_check.integer("frames", one) for one in value]
+            step = frames[1] - frames[0] if len(frames) > 1 else 1
+            if step > 0 and frames and frames == list(range(frames[0], frames[-1] + 1, step)):
+                return frames[0], frames[-1], step
+        else:
+            numbers = [_check.integer("frames", one) for one in (value if isinstance(value, tuple) else (value, value))]
+            first, last, step = numbers if len(numbers) == 3 else (*numbers, 1)
+            if first <= last and step >= 1:
+                return first, last, step
+    except (TypeError, ValueError):  # of numbers that are none, or of another number of them
+        pass
+    return _check.fail("frames", "an integer, (first, last) or (first, last, step) with first <= last and step >= 1, a range, "
+                       "or a list of frames one step apart", value)
 
 
 def wait_for(generator, progress):
@@ -71,7 +80,8 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     is in the dataset as scene.json, and its model files are read again; a Snapshot is in the dataset with its models and textures, as the scene
     that its save() writes is with pack=True. Each scene of a folder becomes a dataset in folder/<its name>; progress counts
     scenes then, and the manifest names the datasets. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
-    integer, (first, last) or (first, last, step), both ends included, or a range; default: all. cameras: a name or a list of names;
+    integer, (first, last) or (first, last, step), both ends included, a range, or a list of frames
+    one step apart; default: all. cameras: a name or a list of names;
     default: all. size: (width, height) in pixels; default: each camera's own, else 640 x 480. progress: called in this
     thread as progress(done, total), pictures (one camera at one frame): with 0, as they are done, and with all.
     resume: complete an interrupted run of the same request. replace: remove the dataset of another request, or an
