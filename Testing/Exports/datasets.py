@@ -131,6 +131,16 @@ def lenses(folder):
                        "distortion": [0.02, -0.004, 0.0006, -5e-05]})]})
 
 
+def room(folder):
+    """Two fisheyes of more than 180 degrees in a closed room: a part of what they see is behind them."""
+    fish = {"model": "fisheye", "K": [[18, 0, 47], [0, 19, 36.5], [0, 0, 1]], "distortion": [0.02, -0.004, 0.001, 0]}
+    return _write(folder, "room", {
+        "objects": [{"name": "room", "model": "block.obj", "scale": [6, 6, 6], "class": "room"},
+                    {"name": "block", "model": "block.obj", "position": [0.9, -0.4, -1], "class": "block"}],
+        "cameras": [_without_view({**_camera("wide", [0, 0, 0], [0.3, 0, -1]), **fish}),
+                    _without_view({**_camera("beside", [-0.5, 0.3, 0.3], [0.2, 0, -1]), **fish})]})
+
+
 def twins(folder):
     """A fisheye that moves, and beside another pinhole one that goes its way."""
     eyes, looks = {"keys": [[0, [-0.3, 0.2, 4.2]], [1, [-0.1, 0.2, 4.1]]]}, {"keys": [[0, [0, 0, 0]], [1, [0.1, 0, 0]]]}
@@ -208,8 +218,9 @@ class ExportCase(ManyCase):
         done = self.dgtk("verify", dataset, "--export", folder, "--json", status=status)
         return json.loads(done.stdout)
 
-    def planted(self, dataset, folder, names, change):
-        """Changes a file of an export, or several alike, hash and size in export.json with it; the referee must find it. Its breach in words."""
+    def planted(self, dataset, folder, names, change, rows=False):
+        """Changes a file of an export, or several alike, hash and size in export.json with it; the referee must find it. Its breach in words,
+        or all of its rows."""
         record = os.path.join(folder, "export.json")
         with open(record, encoding="utf-8") as file:
             whole = file.read()
@@ -227,7 +238,7 @@ class ExportCase(ManyCase):
         new[record] = sealed(mended)
         try:
             self.written(new)
-            return self.dgtk("verify", dataset, "--export", folder, status=1).stderr
+            return self.referee(dataset, folder, status=1) if rows else self.dgtk("verify", dataset, "--export", folder, status=1).stderr
         finally:
             self.written(old)
 

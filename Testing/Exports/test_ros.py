@@ -399,6 +399,21 @@ class Ros(datasets.ExportCase):
         self.assertEqual(infos["/fish/image_raw/compressed"].data[:2], b"\xff\xd8")
         self.assertGreater(next(row for row in record["layers"] if row["layer"] == "color")["largest_rounding"], 0)
 
+    def test_depth_beside_and_behind_a_fisheye_is_none(self):
+        dataset = self.render(datasets.room(self.path("room")), "color,depth")
+        expected = {camera: layer_of(dataset, "depth", camera, 0) for camera in ("wide", "beside")}
+        behind = sum((z <= 0).sum() for z in expected.values())
+        self.assertGreater(behind, 1000)
+        folder, record = self.export(dataset, "rosbag")
+        self.assertIn({"layer": "depth", "values": 2 * 72 * 96, "without_code": behind},
+                      [{key: row[key] for key in ("layer", "values", "without_code")} for row in record["layers"]])
+        for topic, _, message in messages_of_bag(os.path.join(folder, "dataset.bag")):
+            if topic.endswith("/depth/image_raw"):
+                z = expected[topic.split("/")[1]]
+                found = np.frombuffer(message.data, "<f4").reshape(z.shape)
+                self.assertTrue(np.array_equal(found, np.where(z > 0, z, np.nan).astype(np.float32), equal_nan=True))
+        self.export(dataset, "mcap")
+
     def test_names_parts_and_what_is_refused(self):
         path = datasets.many(self.path("many"), 4)
         with open(path, encoding="utf-8") as file:

@@ -107,7 +107,7 @@ void CodeCounter::report(ExportSink& sink, const DatasetShot& shot, const Option
 {
   if (this->Without > 0 && exported::outOfRange().of(options) == "refuse")
   {
-    throw UsageError("out_of_range: " + std::to_string(this->Without) + " pixels of layer " + this->Layer +
+    throw UsageError("out_of_range: " + std::to_string(this->Without) + " values of layer " + this->Layer +
                      " (camera " + quoted(shot.name()) + ", frame " + std::to_string(shot.frame()) +
                      ") have no code in the format");
   }

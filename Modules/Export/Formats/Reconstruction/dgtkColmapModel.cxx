@@ -3,6 +3,7 @@
 #include "dgtkColmapRigs.h"
 
 #include "dgtkExportChecks.h"
+#include "dgtkExportPng.h"
 #include "dgtkLayerFile.h"
 #include "dgtkMovingObjects.h"
 
@@ -75,7 +76,7 @@ Positions positionsOf(const DatasetView& dataset, const Views& views, const std:
 class Writer
 {
 public:
-  Writer(const DatasetView& dataset, const Views& views, bool binary)
+  Writer(const DatasetView& dataset, const Views& views, bool binary, const OptionValues& options, ExportSink& sink)
     : Dataset(dataset)
     , Shown(views)
     , Binary(binary)
@@ -85,7 +86,8 @@ public:
   {
     for (std::size_t i = 0; i < this->Shown.shots.size(); ++i)
     {
-      this->forPlaces(i, [&](std::size_t point, std::size_t, const TrackPlace&) { ++this->Seen[point]; });
+      const CodeCounter counter = this->countPlaces(i);
+      counter.report(sink, *this->Shown.shots[i], options);
     }
     for (std::size_t i = 0; i < this->Points.size(); ++i)
     {
@@ -161,17 +163,48 @@ public:
   const std::vector<std::uint32_t>& cameraIds() const { return this->CameraIds; }
 
 private:
+  /// Whether COLMAP's models, which all divide by z, can say where a picture has a point of the world.
+  bool projects(std::size_t picture, std::size_t point) const
+  {
+    const Rigid3 view = cameraFromWorld(this->Shown.shots[picture]->camera);
+    return (view.rotation * *this->PointsInWorld[point] + view.translation).z() > 0;
+  }
+
+  std::vector<TrackPlace> placesOf(std::size_t picture) const
+  {
+    const std::string file = this->Dataset.file(*this->Shown.shots[picture], "tracks", { "npy" });
+    return readTrackPlaces(this->Dataset.pathOf(file), this->Points.size());
+  }
+
+  /// Adds the places of a picture to what is known of points.
+  CodeCounter countPlaces(std::size_t picture)
+  {
+    LinearCode exact;
+    exact.scale = 0;
+    exact.unit = "px";
+    CodeCounter counter(exact, "tracks");
+    const std::vector<TrackPlace> places = this->placesOf(picture);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      if (this->PointsInWorld[i] && places[i].visibility == 1)
+      {
+        const bool sayable = this->projects(picture, i);
+        counter.count(sayable);
+        this->Seen[i] += sayable ? 1 : 0;
+      }
+    }
+    return counter;
+  }
+
   /// visit(point, number among the places of the picture, place) for the places that the model holds.
   template <typename Visit>
   void forPlaces(std::size_t picture, const Visit& visit) const
   {
-    const DatasetShot& shot = *this->Shown.shots[picture];
-    const std::string file = this->Dataset.pathOf(this->Dataset.file(shot, "tracks", { "npy" }));
-    const std::vector<TrackPlace> places = readTrackPlaces(file, this->Points.size());
+    const std::vector<TrackPlace> places = this->placesOf(picture);
     std::size_t number = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      if (this->PointsInWorld[i] && places[i].visibility == 1)
+      if (this->PointsInWorld[i] && places[i].visibility == 1 && this->projects(picture, i))
       {
         visit(i, number++, places[i]);
       }
@@ -312,9 +345,9 @@ ExportItem modelItem(const DatasetView& dataset, const std::shared_ptr<const Vie
   const std::string points = folder + "points3D" + extension;
   const std::vector<std::string> more = rigFiles(folder, options);
   ExportItem item{ { cameras, images, points },
-    [&dataset, views, cameras, images, points, extension, more](ExportSink& sink)
+    [&dataset, views, cameras, images, points, extension, more, options](ExportSink& sink)
     {
-      Writer writer(dataset, *views, extension == ".bin");
+      Writer writer(dataset, *views, extension == ".bin", options, sink);
       const auto write = [&](const std::string& name, void (Writer::*part)(ExportFile&))
       {
         const std::unique_ptr<ExportFile> file = sink.open(name);

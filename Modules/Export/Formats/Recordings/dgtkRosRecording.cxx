@@ -103,6 +103,12 @@ std::string safeName(const std::string& name)
   return safe;
 }
 
+/// REP 118: a depth is positive.
+bool isSayable(double depth)
+{
+  return depth <= double(std::numeric_limits<float>::max()) && static_cast<float>(depth) > 0;
+}
+
 std::string pictureName(const std::string& file, const std::string& camera, std::uint64_t time)
 {
   constexpr std::uint64_t whole = 1000000000;
@@ -155,7 +161,7 @@ ExportPlan planRecordings(const DatasetView& dataset, const OptionValues& option
   ExportPlan plan;
   plan.conventions = { { "pixel_centre", "integer: cx and cy are 0.5 less" },
     { "axes", "of cameras x right, y down, z forward; world and objects have the dataset's" },
-    { "times", "frame / frames per second + 1 s" }, { "depth", "z, float32 metres, NaN for none" },
+    { "times", "frame / frames per second + 1 s" }, { "depth", "z, float32 metres, NaN for none and for z <= 0" },
     { "metres_per_unit", shortest(dataset.metres()) } };
   std::set<std::string> sheared;
   for (const int frame : dataset.frames())
@@ -274,7 +280,7 @@ Message Recording::depth(const DatasetShot& shot, const Stamp& stamp, const std:
     {
       const double value = rows.at(x) * this->Dataset.metres();
       const bool there = std::isfinite(value);
-      const bool fits = there && std::abs(value) <= double(std::numeric_limits<float>::max());
+      const bool fits = isSayable(value);
       const float code = fits ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN();
       rounding.values += there ? 1 : 0;
       rounding.withoutCode += there && !fits ? 1 : 0;

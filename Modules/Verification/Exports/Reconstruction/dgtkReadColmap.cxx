@@ -264,20 +264,24 @@ void readText(const std::string& folder, ColmapModel& model)
   }
 }
 
-/// Pixels of a point in camera axes.
+/// Pixels of a point in camera axes; none where it is not in front of the camera, as all models divide by z.
 Eigen::Vector2d project(const ColmapCamera& camera, const Eigen::Vector3d& x)
 {
   const std::vector<double>& n = camera.numbers;
+  if (!(x[2] > 0))
+  {
+    return { infinite, infinite };
+  }
   double a = x[0] / x[2];
   double b = x[1] / x[2];
   const double square = a * a + b * b;
   if (camera.model == "OPENCV_FISHEYE")
   {
     const double radius = std::sqrt(square);
-    const double angle = std::atan2(std::hypot(x[0], x[1]), x[2]);
+    const double angle = std::atan(radius);
     const double s = angle * angle;
     const double bent = angle * (1 + s * (n[4] + s * (n[5] + s * (n[6] + s * n[7]))));
-    const double scale = radius > 0 ? bent / std::hypot(x[0], x[1]) * x[2] : 1;
+    const double scale = radius > 0 ? bent / radius : 1;
     a *= scale;
     b *= scale;
   }
@@ -377,7 +381,7 @@ private:
     }
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      if (places[i].visibility == 1)
+      if (places[i].visibility == 1 && (R * this->Tracks[i].x + image.t).z() > 0)
       {
         ++this->Seen[std::int64_t(i) + 1];
       }

@@ -337,7 +337,7 @@ void RosReferee::depth(RosBytes& bytes, const ExportedName& name)
     {
       const double found = double(data.take<float>());
       const double want = expected->at(x, y) * this->Metres;
-      const bool there = std::isfinite(want) && std::abs(want) <= double(std::numeric_limits<float>::max());
+      const bool there = want <= double(std::numeric_limits<float>::max()) && static_cast<float>(want) > 0;
       const double apart = there ? std::abs(found - want) / (5.97e-8 * std::abs(want) + 1e-45) : 0;
       largest = std::max(largest, std::isnan(found) == there ? infinite : apart);
     }
