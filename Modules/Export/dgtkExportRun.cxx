@@ -318,6 +318,7 @@ void ExportRun::write(std::size_t index)
     sink.readsNotes([this](const std::string& list, const auto& visit) { this->forNotes(list, visit); });
   }
   item.write(sink);
+  requireCodes(sink.record().rounding, this->Request.options, item.files.empty() ? "" : item.files.front());
   this->Notes->add(index, sink.record());
 }
 
@@ -455,6 +456,7 @@ void ExportRun::close()
         addRounding(record.layers, one);
       }
     });
+  requireSomeCodes(record.layers, this->Row.info.name);
   std::sort(record.layers.begin(), record.layers.end(),
     [](const LayerRounding& a, const LayerRounding& b)
     { return std::tie(a.layer, a.unit) < std::tie(b.layer, b.unit); });

@@ -127,6 +127,15 @@ class Limits(datasets.ExportCase):
         self.refuses_documents("voc", "more than 254 classes", classes, 254)
         self.nothing("kitti2015", self.dataset, "foreground: no class 'Lorry' (expected one of ", *PAIR, "--foreground", "Car,Lorry")
 
+    def test_a_layer_without_any_code(self):
+        dataset = self.render(datasets.in_units(datasets.walk(self.path("scene"), 2)), "color,depth")
+        for form, metres in (("tum", "201.168"), ("tum", "1e-300"), ("kitti-depth", "1000"), ("rosbag", "1e-300"), ("hdf5", "1e-300")):
+            if form == "hdf5":
+                dataset = self.render(self.path("scene", "walk.json"), "color,depth,objects,classes")
+            with self.subTest(form=form, metres=metres):
+                self.nothing(form, dataset, (f"{form}: none of the ", " values of layer depth has a code in the format"), "--unit-metres", metres)
+        self.export(dataset, "tum", "--unit-metres", "1")
+
     def test_a_class_that_kitti_means_otherwise(self):
         def rename(document):
             for box in document["objects"]:
@@ -159,10 +168,10 @@ class Limits(datasets.ExportCase):
         document = json.loads(manifest)
         next(layer for layer in document["layers"] if layer["name"] == "depth")["meaning"] = "mask"
         self.write(path, json.dumps(document))
-        folder, record = self.export(shown, "tum", "--unit-metres", "1")
+        folder, record = self.export(shown, "kitti-depth", "--unit-metres", "1")
         self.write(path, manifest)
         record["dataset_manifest"] = hashlib.sha256(manifest.encode()).hexdigest()
-        request = [record["version"], "tum", record["dataset_manifest"], *(f"{key}={value}" for key, value in record["request"].items())]
+        request = [record["version"], "kitti-depth", record["dataset_manifest"], *(f"{key}={value}" for key, value in record["request"].items())]
         record["request_hash"] = hashlib.sha256("\n".join(request).encode()).hexdigest()
         self.written({os.path.join(folder, "export.json"): datasets.sealed(record)})
         self.assertIn("has no file of layer depth", self.dgtk("verify", shown, "--export", folder, status=1).stderr)

@@ -250,6 +250,66 @@ class FlyingThings(datasets.ExportCase):
 
 
 
+class Gone(datasets.ExportCase):
+    """A surface that is switched off until the other frame has class 0 and a value; formats without classes have none there."""
+    LAYERS = "color,depth,objects,classes,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward"
+
+    def test_what_is_no_longer_there_has_no_value(self):
+        path = datasets.stereo(self.path("scene"), 2)
+        scene = load_json(path)
+        scene["objects"][1]["visible"] = {"keys": [[0, True], [1, False]]}
+        dataset = self.render(self.write(path, json.dumps(scene)), self.LAYERS)
+        values = {}
+        for camera in (LEFT, RIGHT):
+            flow = read_flo(os.path.join(dataset, camera, "flow_forward", "000000.flo"))
+            gone = classes_of(dataset, "flow_forward", camera, 0) == 0
+            second = layer_of(dataset, "disparity_forward", camera, 0)
+            gone_second = classes_of(dataset, "disparity_forward", camera, 0) == 0
+            self.assertGreater((gone & (flow[..., 0] < 1e9)).sum(), 300)
+            self.assertGreater((gone_second & np.isfinite(second)).sum(), 300)
+            values[camera] = np.where(gone[..., None], 1e10, flow), second - layer_of(dataset, "disparity", camera, 0), gone_second, np.where(gone_second, np.nan, second)
+            values[camera] += ((gone & (flow[..., 0] < 1e9)).sum(), (gone_second & np.isfinite(second)).sum())
+        flow, change, gone, second, lost, lost_second = values[LEFT]
+        both = [sum(values[camera][i] for camera in (LEFT, RIGHT)) for i in (4, 5)]
+
+        folder, record = self.export(dataset, "sintel")
+        self.assertEqual(read_flo(os.path.join(folder, "training/flow/left_eye/frame_0001.flo")).tobytes(), flow.astype(np.float32).tobytes())
+        self.assertEqual(self.lost(record), {"flow_forward": 2 * lost})
+        folder, record = self.export(dataset, "kitti2015")
+        self.assertFalse(read_png(os.path.join(folder, "training/flow_occ/000000_10.png"), (16, 3))[gone].any())
+        self.assertEqual(self.lost(record), {"flow_forward": lost, "disparity_forward": lost_second})
+        folder, record = self.export(dataset, "flyingthings")
+        found = read_pfm(os.path.join(folder, "optical_flow/TRAIN/A/0000/into_future/left/OpticalFlowIntoFuture_0006_L.pfm"))
+        self.assertTrue(np.array_equal(found[..., :2], flow))
+        found = read_pfm(os.path.join(folder, "disparity_change/TRAIN/A/0000/into_future/left/0006.pfm"))
+        self.assertTrue(np.array_equal(found, np.where(gone | ~np.isfinite(change), 1e10, change).astype(np.float32)))
+        self.assertEqual(self.lost(record), {"flow_forward": 2 * both[0], "disparity_forward": both[1]})
+        name = "optical_flow/TRAIN/A/0000/into_future/left/OpticalFlowIntoFuture_0006_L.pfm"
+        with open(os.path.join(folder, name), "rb") as file:
+            data = file.read()
+        at = len(data) - 12 * (found.shape[1] * found.shape[0] - np.flatnonzero(gone[::-1])[0])
+        filled = data[:at] + bytes(8) + data[at + 8:]
+        self.assertIn("layer flow_forward", self.planted(dataset, folder, name, lambda _: filled))
+        folder, record = self.export(dataset, "spring")
+        with h5py.File(os.path.join(folder, "train/0001/flow_FW_left/flow_FW_left_0001.flo5")) as file:
+            self.assertTrue(np.array_equal(file["flow"][()], np.where(flow < 1e9, flow / 2, np.nan), equal_nan=True))
+        with h5py.File(os.path.join(folder, "train/0001/disp2_FW_left/disp2_FW_left_0001.dsp5")) as file:
+            self.assertTrue(np.array_equal(file["disparity"][()], second / 2, equal_nan=True))
+        self.assertEqual(self.lost(record), {"flow_forward": 2 * both[0], "disparity_forward": both[1]})
+        folder, record = self.export(dataset, "hdf5")
+        with h5py.File(os.path.join(folder, "0.hdf5")) as file:
+            self.assertTrue(np.array_equal(file["forward_flow_0"][()], np.where(flow < 1e9, flow, np.nan), equal_nan=True))
+        self.assertEqual(self.lost(record), {"flow_forward": 2 * both[0]})
+        for form in ("sintel", "kitti2015", "flyingthings", "spring", "hdf5"):
+            self.refused("export", dataset, "--format", form, "-o", self.path("no"), "--out-of-range", "refuse", status=2,
+                         says="have no code in the format")
+            self.assertFalse(os.path.exists(self.path("no")))
+
+    @staticmethod
+    def lost(record):
+        return {row["layer"]: row["without_code"] for row in record["layers"] if row["without_code"]}
+
+
 class OfThreeCameras(datasets.ExportCase):
     """Disparities are those to the nearest camera of the run: what an export says of the pair must be of the same one."""
     NAMES = "left eye,right.eye"

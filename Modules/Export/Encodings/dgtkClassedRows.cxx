@@ -18,9 +18,11 @@ void addClasses(PixelEncoding& encoding, const std::string& layer, const WantedC
 
 ClassedRows::ClassedRows(
   const DatasetView& dataset, const DatasetShot& shot, const std::string& layer, const WantedClasses& classes)
-  : Values(dataset.open(shot, layer))
+  : Layer(layer)
+  , Values(dataset.open(shot, layer))
 {
-  for (const auto& [other, wanted] : classes)
+  const bool usual = classes.empty() && !dataset.file(shot, layer + "_class", { "png" }).empty();
+  for (const auto& [other, wanted] : usual ? WantedClasses{ { layer, placedClasses() } } : classes)
   {
     this->Filters.push_back({ dataset.open(shot, other + "_class", { "png" }), wanted, {} });
   }
@@ -30,14 +32,36 @@ void ClassedRows::next()
 {
   constexpr int together = 16;
   ++this->Y;
-  if (this->Y < this->Block.y() + this->Block.height())
+  if (this->Y >= this->Block.y() + this->Block.height())
   {
-    return;
+    this->Block = this->Values->read(together);
+    for (Filter& filter : this->Filters)
+    {
+      filter.rows = filter.reader->read(together);
+    }
   }
-  this->Block = this->Values->read(together);
-  for (Filter& filter : this->Filters)
+  if (this->Filters.size() == 1 && this->Filters[0].wanted == placedClasses())
   {
-    filter.rows = filter.reader->read(together);
+    this->countGone();
+  }
+}
+
+void ClassedRows::countGone()
+{
+  for (int x = 0; x < this->Block.width(); ++x)
+  {
+    const bool gone =
+      valueAt(this->Filters[0].rows, x, this->Y) == 0 && std::isfinite(valueAt(this->Block, x, this->Y));
+    this->Gone += gone ? 1 : 0;
+  }
+}
+
+void ClassedRows::reportGone(ExportSink& sink, int channels) const
+{
+  if (this->Gone > 0)
+  {
+    const std::uint64_t values = this->Gone * static_cast<unsigned>(channels);
+    sink.rounding({ this->Layer, "px", 0, values, values });
   }
 }
 

@@ -3,9 +3,11 @@
 #define dgtkClassedRows_h
 
 #include "dgtkDatasetView.h"
+#include "dgtkExporter.h"
 
 #include "dgtkExportDocument.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,7 +22,8 @@ using WantedClasses = std::map<std::string, std::vector<double>>;
 void addClasses(PixelEncoding& encoding, const std::string& layer, const WantedClasses& classes);
 
 /// Rows of a layer from top to bottom. Values that are not finite are NaN, and so are those of pixels with a class that
-/// is not wanted.
+/// is not wanted. Where no class is said to be wanted, all are that have a place in the other image: what is no longer
+/// there (class 0) has a value in the dataset, which formats without classes could not tell from others.
 class ClassedRows
 {
 public:
@@ -31,6 +34,9 @@ public:
   double at(int x, int channel = 0) const;
   /// The values of a row's first channel.
   void row(std::vector<double>& values) const;
+  /// Of the rows so far: counts the values of what is no longer there as without code, in pixels; `channels` of them
+  /// are counted one by one.
+  void reportGone(ExportSink& sink, int channels) const;
 
 private:
   struct Filter
@@ -39,8 +45,11 @@ private:
     std::vector<double> wanted;
     Rows rows;
   };
+  void countGone();
+  std::string Layer;
   std::unique_ptr<RowReader> Values;
   std::vector<Filter> Filters;
+  std::uint64_t Gone = 0;
   Rows Block; ///< several rows at a time
   int Y = -1;
 };

@@ -35,6 +35,30 @@ void requireWhole(const OptionValues& options, const std::string& format)
   }
 }
 
+void requireCodes(const std::vector<LayerRounding>& layers, const OptionValues& options, const std::string& file)
+{
+  for (const LayerRounding& one : layers)
+  {
+    if (one.withoutCode > 0 && exported::outOfRange().of(options) == "refuse")
+    {
+      throw UsageError("out_of_range: " + std::to_string(one.withoutCode) + " values of layer " + one.layer + " (" +
+                       file + ") have no code in the format");
+    }
+  }
+}
+
+void requireSomeCodes(const std::vector<LayerRounding>& layers, const std::string& format)
+{
+  for (const LayerRounding& one : layers)
+  {
+    if (one.values > 0 && one.withoutCode == one.values)
+    {
+      throw UsageError(format + ": none of the " + std::to_string(one.values) + " values of layer " + one.layer +
+                       " has a code in the format (expected some within its range)");
+    }
+  }
+}
+
 void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const std::string& format)
 {
   std::vector<std::string> missing;

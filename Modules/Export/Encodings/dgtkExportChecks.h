@@ -17,6 +17,10 @@ namespace dgtk
 void requirePng(const OptionValues& options, const std::string& format);
 /// The format has no parts.
 void requireWhole(const OptionValues& options, const std::string& format);
+/// No value of an item is without a code, where such are to be refused; `file` is the item's first.
+void requireCodes(const std::vector<LayerRounding>& layers, const OptionValues& options, const std::string& file);
+/// Of a whole export: no layer is without a code at all its values.
+void requireSomeCodes(const std::vector<LayerRounding>& layers, const std::string& format);
 /// The dataset has a file at least of every layer.
 void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const std::string& format);
 /// A picture has a file of the layer with one of the extensions; every picture has.

@@ -64,6 +64,11 @@ float FloatRounder::operator()(double value)
   return rounded;
 }
 
+float FloatRounder::length(double value)
+{
+  return (*this)(value > 0 && static_cast<float>(value) == 0 ? std::numeric_limits<double>::infinity() : value);
+}
+
 void writeFloats(ExportSink& sink, const std::string& name, const ExportedPixels& pixels, const FloatFile& form,
   int width, int height, int filled, const std::function<void(int y, double* row)>& fill)
 {
@@ -123,6 +128,7 @@ void writeFloatLayer(ExportSink& sink, const DatasetView& dataset, const Dataset
         row[i] = out ? std::numeric_limits<double>::quiet_NaN() : rows.at(i / filled, i % filled);
       }
     });
+  rows.reportGone(sink, filled);
 }
 
 } // namespace dgtk

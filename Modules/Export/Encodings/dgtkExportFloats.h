@@ -25,6 +25,8 @@ public:
   }
   /// `nothing` for NaN, and for what is too large, which is counted.
   float operator()(double value);
+  /// The same of a length, which is not 0: what is too small is `nothing`, too.
+  float length(double value);
   const LayerRounding& account() const { return this->Account; }
 
 private:

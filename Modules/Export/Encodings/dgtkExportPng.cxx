@@ -145,6 +145,7 @@ void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetSh
       }
     });
   counter.report(sink, shot, options);
+  rows.reportGone(sink, 1);
 }
 
 namespace

@@ -267,6 +267,13 @@ PicturePointer ExportedFrom::picture(
   return std::make_shared<PictureFile>(this->DatasetFolder, name, record->width, record->height);
 }
 
+PicturePointer ExportedFrom::classesOf(const std::string& camera, int frame, const std::string& layer) const
+{
+  const std::string classes = layer + "_class";
+  return this->file(camera, frame, classes, { "png" }).empty() ? nullptr
+                                                               : this->picture(camera, frame, classes, { "png" });
+}
+
 ExportJudge::~ExportJudge()
 {
   for (auto& [what, line] : this->Lines)

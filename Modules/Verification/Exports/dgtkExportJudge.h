@@ -71,6 +71,9 @@ public:
   /// The same, read. Throws InputError without a file.
   PicturePointer picture(const std::string& camera, int frame, const std::string& layer,
     const std::vector<std::string>& extensions = {}) const;
+  /// The class image of a layer, null for none. A surface of class 0 is gone in the other view: of its values, formats
+  /// without classes hold none.
+  PicturePointer classesOf(const std::string& camera, int frame, const std::string& layer) const;
 
 private:
   void addCameras(const std::string& part);

@@ -74,6 +74,7 @@ void writeFlow(ExportSink& sink, const DatasetView& dataset, const DatasetShot& 
       }
     });
   counter.report(sink, shot, options);
+  rows.reportGone(sink, 1);
 }
 
 namespace

@@ -124,10 +124,12 @@ private:
         rows.next();
         for (int i = 0; i < info.width * info.channels; ++i)
         {
-          static_cast<float*>(row)[i] = rounder(rows.at(i / info.channels, i % info.channels) * factor);
+          const double value = rows.at(i / info.channels, i % info.channels);
+          static_cast<float*>(row)[i] = isLength ? rounder.length(value * factor) : rounder(value);
         }
       });
     this->Sink.rounding(rounder.account());
+    rows.reportGone(this->Sink, info.channels);
   }
 
   /// Half of the normal in axes that look along -z, and a half.

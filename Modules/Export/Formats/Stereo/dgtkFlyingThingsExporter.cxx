@@ -77,6 +77,7 @@ void writeFlow(ExportSink& sink, const DatasetView& dataset, const Eye& eye, con
         row[i] = rows.at(i / 2, i % 2);
       }
     });
+  rows.reportGone(sink, 2);
 }
 
 void writeChange(ExportSink& sink, const DatasetView& dataset, const Eye& eye, const Direction& way)
@@ -95,6 +96,7 @@ void writeChange(ExportSink& sink, const DatasetView& dataset, const Eye& eye, c
         row[x] = there.at(x) - here.at(x);
       }
     });
+  there.reportGone(sink, 1);
 }
 
 /// Readers of the set pair the files of a folder by their order, so that none may be missing: where a frame has no

@@ -110,6 +110,7 @@ void writeTruth(
     });
   sink.write(name, file.bytes(), { truth.layer, &shot, { "hdf5", { { "factor", { 0.5 } } } } });
   sink.rounding(rounder.account());
+  rows.reportGone(sink, info.channels);
 }
 
 class SpringExporter : public Exporter

@@ -246,6 +246,10 @@ public:
         this->Classes.push_back({ one.source.picture(file.camera, file.frame, layer + "_class", { "png" }), wanted });
       }
     }
+    if (this->Classes.empty())
+    {
+      this->Usual = one.source.classesOf(file.camera, file.frame, file.layer);
+    }
   }
   double at(int x, int y, int c) const
   {
@@ -255,6 +259,10 @@ public:
       {
         return noNumber;
       }
+    }
+    if (this->Usual && this->Usual->at(x, y) == 0)
+    {
+      return noNumber;
     }
     if (this->Objects &&
         std::find(this->LeftOut.begin(), this->LeftOut.end(), double(this->Objects->id(x, y))) != this->LeftOut.end())
@@ -275,6 +283,7 @@ private:
   }
   PicturePointer Layer;
   std::vector<std::pair<PicturePointer, std::vector<double>>> Classes;
+  PicturePointer Usual; ///< classes, where none are wanted: all but 0 are
   std::vector<double> Factors;
   PicturePointer Objects; ///< where some are left out
   std::vector<double> LeftOut;
@@ -324,13 +333,13 @@ void judgeChange(const Comparison& one, Meter& meter)
 {
   constexpr double half = 5.97e-8;
   const DecodedPixels found = decodeFloat(one.path(), one.encoding());
-  const PicturePointer there = one.layer();
+  const ExpectedValues there(one);
   const PicturePointer here = one.source.picture(one.file().camera, one.file().frame, "disparity");
   one.requireSize(found.width, found.height);
   forPixels(found.width, found.height,
     [&](int x, int y)
     {
-      const double want = there->at(x, y) - here->at(x, y);
+      const double want = there.at(x, y, 0) - here->at(x, y);
       const double value = found.at(x, y);
       const bool same = std::isfinite(value) == std::isfinite(want);
       const double apart = std::isfinite(want) ? beyond(std::abs(value - want), half * std::abs(want)) : 0;

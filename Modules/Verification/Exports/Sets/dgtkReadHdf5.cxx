@@ -138,13 +138,15 @@ private:
     {
       return 0.5 + value / 2;
     }
-    return key.isLength ? value * metresOf(this->Judge.source()) : value;
+    const double length = value * metresOf(this->Judge.source());
+    return !key.isLength ? value : length > 0 && static_cast<float>(length) == 0 ? key.nothing : length;
   }
 
   void compare(const ExportedName& picture, const Key& key, const std::string& layer, const Hdf5Dataset& found)
   {
     const PicturePointer values = this->Judge.source().picture(picture.camera, picture.frame, layer,
       std::string(key.name) == "colors" ? std::vector<std::string>{ "png" } : std::vector<std::string>());
+    const PicturePointer classes = this->Judge.source().classesOf(picture.camera, picture.frame, layer);
     const bool ids = layer == "objects" || layer == "classes";
     const int channels = ids ? 1 : values->channels() + (layer == "objectcoords" ? 1 : 0);
     std::vector<std::uint64_t> shape{ std::uint64_t(values->height()), std::uint64_t(values->width()) };
@@ -168,7 +170,8 @@ private:
       {
         for (int c = 0; c < channels; ++c, ++at)
         {
-          const double want = this->expected(*values, key, x, y, c);
+          const bool gone = classes && classes->at(x, y) == 0;
+          const double want = gone ? key.nothing : this->expected(*values, key, x, y, c);
           const double value = found.values[at];
           const bool same = value == want || (std::isnan(value) && std::isnan(want));
           const double slack = key.kind == Hdf5Dataset::Kind::Real ? half * std::abs(want) : 0;
