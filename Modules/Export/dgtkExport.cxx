@@ -46,10 +46,7 @@ void addResult(const ExportResult& one, ExportResult& all)
   all.files += one.files;
   all.kept += one.kept;
   all.interrupted = one.interrupted;
-  for (const LayerRounding& layer : one.layers)
-  {
-    addRounding(all.layers, layer);
-  }
+  addRounding(all.layers, one.layers);
 }
 
 ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks)

@@ -448,14 +448,7 @@ void ExportRun::close()
   record.request = this->described();
   record.conventions = this->Plan.conventions;
   record.names = this->Plan.names;
-  this->forRecords(
-    [&](const ItemRecord& item)
-    {
-      for (const LayerRounding& one : item.rounding)
-      {
-        addRounding(record.layers, one);
-      }
-    });
+  this->forRecords([&](const ItemRecord& item) { addRounding(record.layers, item.rounding); });
   requireSomeCodes(record.layers, this->Row.info.name);
   std::sort(record.layers.begin(), record.layers.end(),
     [](const LayerRounding& a, const LayerRounding& b)
@@ -492,6 +485,10 @@ void ExportRun::close()
       document.write(exportTail(hash.hex()));
     });
   this->Result.layers = record.layers;
+  for (const std::string& warning : this->Callbacks.message ? this->Plan.warnings : std::vector<std::string>())
+  {
+    this->Callbacks.message("warning: " + warning);
+  }
 }
 
 } // namespace dgtk

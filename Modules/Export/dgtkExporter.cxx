@@ -46,6 +46,7 @@ ExportPlan Exporter::planScenes(const std::vector<const DatasetView*>& scenes, c
       }
     }
     all.names.insert(all.names.end(), plan.names.begin(), plan.names.end());
+    all.warnings.insert(all.warnings.end(), plan.warnings.begin(), plan.warnings.end());
     all.conventions = std::move(plan.conventions);
   }
   return all;

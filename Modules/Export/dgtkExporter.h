@@ -94,6 +94,7 @@ struct ExportPlan
   std::vector<ExportItem> documents; ///< written one by one after all items; they may read their notes
   TextPairs conventions;             ///< { "pixel_centre", "integer: cx and cy are 0.5 less" }, ...
   std::vector<ExportedName> names;   ///< of the pictures, as the format calls them; those of items follow
+  std::vector<std::string> warnings; ///< lines for the user: what becomes of the dataset in the format
 };
 
 /// A format of other people's datasets. Stateless; sees a dataset, and nothing of how it was made.

@@ -159,4 +159,12 @@ void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one)
   same->withoutCode += one.withoutCode;
 }
 
+void addRounding(std::vector<LayerRounding>& all, const std::vector<LayerRounding>& some)
+{
+  for (const LayerRounding& one : some)
+  {
+    addRounding(all, one);
+  }
+}
+
 } // namespace dgtk

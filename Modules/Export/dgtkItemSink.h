@@ -13,6 +13,7 @@ namespace dgtk
 
 /// Adds what one item did to a layer's values to what others did.
 void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one);
+void addRounding(std::vector<LayerRounding>& all, const std::vector<LayerRounding>& some);
 
 /// Writes the files of one item into the folder of an export and collects what it leaves.
 class ItemSink : public ExportSink

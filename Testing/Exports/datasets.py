@@ -165,6 +165,19 @@ def street(folder, frames=2, **size):
         _camera("cam R", {"keys": [[0, [0.1, 0.2, 4.5]], [last, [0.1, 0.2, 4.3]]]}, {"keys": [[0, [0.1, 0.2, 0]], [last, [0.1, 0.2, -0.2]]]}, **size)]})
 
 
+def far_away(path, by):
+    """A scene's file again, all of it elsewhere. Its path."""
+    def moved(value):
+        return {"keys": [[f, moved(v)] for f, v in value["keys"]]} if isinstance(value, dict) else [a + b for a, b in zip(value, by)]
+
+    scene = load_json(path)
+    for one in scene["objects"] + scene["cameras"] + scene["lights"]:
+        one.update({key: moved(one[key]) for key in ("position", "eye", "lookAt", "target") if key in one})
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(scene, file, ensure_ascii=False)
+    return path
+
+
 def in_units(path, metres=None):
     """A scene's file again, in units of so many metres; None: nobody says how long they are. Its path."""
     scene = load_json(path)

@@ -192,6 +192,39 @@ class Gltf(datasets.ExportCase):
         along = asset.matrix(asset.nodes("extensions")["lamp"], 0)[:3, :3] @ [0, 0, -1]
         np.testing.assert_allclose(along, -np.array([1, 2, 4]) / math.sqrt(21), atol=1e-12)
 
+    def test_a_scene_far_from_the_origin(self):
+        """Keys are float32: the world's node brings them to whole kilometres, and export.json says what is rounded."""
+        for up in ("y", "z"):
+            path = datasets.far_away(datasets.stereo(self.path(up)), (1000001.25, 60.5, -8400001.75))
+            scene = load_json(path)
+            scene["upAxis"] = up
+            for camera in scene["cameras"]:
+                camera["up"] = [0, 1, 0]
+            self.write(path, json.dumps(scene))
+            dataset, folder, asset, record = self.exported(path)
+            far = np.array(asset.json["nodes"][0]["translation"])
+            self.assertEqual(far.tolist(), [500000, 0, -4200000] if up == "y" else [500000, -4200000, 0])
+            turn = np.eye(3) if up == "y" else np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])
+            poses = load_json(os.path.join(dataset, "poses.json"))["poses"]
+            largest = 0
+            for one in poses:
+                name = next(n for n, i in asset.nodes("mesh").items() if asset.json["nodes"][i]["extras"]["id"] == one["id"])
+                t = turn @ np.array(one["matrix"])[:, 3] * self.METRES
+                largest = max(largest, np.abs(asset.matrix(asset.nodes("mesh")[name], one["frame"] / 25)[:3, 3] - t).max())
+            for (name, frame), entry in datasets.cameras_of(dataset).items():
+                t = turn @ -(entry["R"].T @ entry["t"]) * self.METRES
+                largest = max(largest, np.abs(asset.matrix(asset.nodes("camera")[name], frame / 25)[:3, 3] - t).max())
+            self.assertLess(largest, 2e-5)
+            rows = {row["unit"]: row for row in record["layers"] if row["layer"] == "poses"}
+            self.assertTrue(0 < rows["m"]["largest_rounding"] < 2e-5, rows)
+            self.assertTrue(0 < rows["1"]["largest_rounding"] < 1e-7, rows)
+            self.assertEqual(rows["m"]["values"], 3 * 3 * 3)  # of two cameras and a block
+            again = asset.json["nodes"][0]["translation"]
+            said = self.planted(dataset, folder, "scene.gltf", lambda data: data.replace(str(again[0]).encode(), str(again[0] + 0.01).encode(), 1))
+            self.assertIn("layer", said)
+        near, _, asset, _ = self.exported(datasets.stereo(self.path("near")))
+        self.assertNotIn("translation", asset.json["nodes"][0])
+
     def test_dgtk_reads_it_back(self):
         """The exported scene, drawn by DGTk through the scene's cameras, has the dataset's depth."""
         scene = datasets.stereo(self.path("scene"), frames=1)

@@ -101,6 +101,29 @@ class Transforms(datasets.ExportCase):
         said = self.planted(dataset, folder, "points.ply", lambda data: head + b"end_header\n" + two_roundings_off(data[-len(rows):]))
         self.assertIn("layer points", said)
 
+    def test_places_far_from_the_origin_are_rounded_and_it_says_so(self):
+        path = datasets.far_away(datasets.walk(self.path("scene"), 2), (500000.3, 30.1, -4200000.7))
+        dataset = self.render(path, self.LAYERS, *TRACKS)
+        folder = self.path("far")
+        said = self.dgtk("export", dataset, "--format", "transforms", "-o", folder).stderr
+        self.referee(dataset, folder)
+        x = np.array([point["x"] for point in load_json(os.path.join(dataset, "tracks", "points.json"))["points"]])
+        [layer] = [row for row in load_json(os.path.join(folder, "export.json"))["layers"] if row["layer"] == "tracks"]
+        self.assertEqual(layer["largest_rounding"], np.abs(x.astype(np.float32) - x).max())
+        self.assertEqual((layer["unit"], layer["values"], layer["without_code"]), ("scene units", x.size, 0))
+        self.assertRegex(said, "(?m)^tracks: rounded by at most 0[.].* scene units$")
+        self.assertEqual(load_json(os.path.join(folder, "transforms.json"))["aabb_scale"], 128)
+        self.assertRegex(said, "(?m)^warning: transforms.json: aabb_scale is at most 128, and the cube of cameras and points needs 27720")
+
+    def test_a_code_of_depth_is_a_millimetre(self):
+        for metres, step in ((None, 0.001), (1, 0.001), (0.01, 0.1), (0.001, 1)):
+            path = datasets.in_units(datasets.walk(self.path(str(metres)), 2), metres)
+            folder, record = self.export(self.render(path, self.LAYERS, *TRACKS), "transforms")
+            document = load_json(os.path.join(folder, "transforms.json"))
+            self.assertEqual(document["integer_depth_scale"], step)
+            [layer] = [row for row in record["layers"] if row["layer"] == "depth"]
+            self.assertEqual(layer["largest_rounding"], step / 2)
+
     def test_what_moves_is_masked(self):
         dataset = self.render(datasets.stereo(self.path("scene")), self.LAYERS, *TRACKS)
         folder, record = self.export(dataset, "transforms", "--image-format", "jpg")

@@ -2,11 +2,13 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportFloats.h"
 #include "dgtkExportPng.h"
 #include "dgtkExportSeries.h"
 #include "dgtkLayerFile.h"
 #include "dgtkMovingObjects.h"
 #include "dgtkPortableMath.h"
+#include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -20,18 +22,20 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 constexpr const char* transformsName = "transforms";
+constexpr int mostBoxScale = 128; ///< that instant-ngp takes
 
 const NumbersOption& depthStep()
 {
-  static const NumbersOption row(
-    "depth_step", "X", 1, 0, "a code of the depth maps, in scene units; default 0.001, as nerfstudio has it");
+  static const NumbersOption row("depth_step", "X", 1, 0,
+    "a code of the depth maps, in scene units; default a millimetre; 0.001, as nerfstudio has it, of unknown units");
   return row;
 }
 
-double stepOf(const OptionValues& options)
+double stepOf(const DatasetView& dataset, const OptionValues& options)
 {
+  constexpr double usual = 0.001; ///< metres
   const std::vector<double> given = depthStep().of(options);
-  return given.empty() ? 0.001 : given[0];
+  return !given.empty() ? given[0] : dataset.knowsMetres() ? usual / dataset.metres() : usual;
 }
 
 [[noreturn]] void refuse(const CameraRecord& camera, const std::string& what)
@@ -134,7 +138,15 @@ public:
     };
     plan.series.push_back({ dataset.shots().size(), item });
     plan.documents.push_back(points(dataset));
-    plan.documents.push_back(document(dataset, same, options));
+    const double size = sizeOf(dataset);
+    plan.documents.push_back(document(dataset, same, size, options));
+    if (2 * size > mostBoxScale)
+    {
+      plan.warnings.push_back(
+        "transforms.json: aabb_scale is at most " + std::to_string(mostBoxScale) +
+        ", and the cube of cameras and points needs " + shortest(2 * size) +
+        ": instant-ngp cuts off what is beyond (bring the scene nearer to 0, or make it smaller)");
+    }
     return plan;
   }
 
@@ -179,7 +191,7 @@ private:
     item.write = [&dataset, &shot, names, moving, ownLens, options](ExportSink& sink)
     {
       LinearCode code;
-      code.scale = stepOf(options);
+      code.scale = stepOf(dataset, options);
       code.unit = "scene units";
       writePicture(sink, dataset, shot, exported::color().of(options), names.picture, options);
       writeCodedPng(sink, dataset, shot, exported::depth().of(options), names.depth, code, options);
@@ -207,6 +219,7 @@ private:
       {
         std::string rows;
         std::size_t count = 0;
+        FloatRounder rounder(0, "tracks", "scene units");
         for (const TrackPoint& point : trackPointsBut(dataset, movingObjects(dataset)))
         {
           if (point.isStatic)
@@ -214,7 +227,7 @@ private:
             ++count;
             for (const double x : point.x)
             {
-              putLittle(rows, static_cast<float>(x));
+              putLittle(rows, rounder(x));
             }
             rows.append(point.color, point.color + 3);
           }
@@ -229,14 +242,14 @@ private:
           head += std::string("property uchar ") + color + '\n';
         }
         sink.write("points.ply", head + "end_header\n" + rows);
+        sink.rounding(rounder.account());
       } };
   }
 
-  /// The smallest cube, of 1 to 128 times instant-ngp's usual one, around cameras and points.
-  static int boxScale(const DatasetView& dataset)
+  /// Half the side of the smallest cube around cameras and points, by instant-ngp's own scale of the scene.
+  static double sizeOf(const DatasetView& dataset)
   {
-    constexpr double usual = 0.33; ///< instant-ngp's own scale of the scene
-    constexpr int most = 128;
+    constexpr double usual = 0.33;
     double size = 0;
     for (const DatasetShot& shot : dataset.shots())
     {
@@ -246,23 +259,28 @@ private:
     {
       size = std::max(size, point.x.cwiseAbs().maxCoeff());
     }
+    return usual * size;
+  }
+
+  static int boxScale(double size)
+  {
     int scale = 1;
-    while (scale < most && scale < 2 * usual * size)
+    while (scale < mostBoxScale && scale < 2 * size)
     {
       scale *= 2;
     }
     return scale;
   }
 
-  static ExportItem document(const DatasetView& dataset, bool same, const OptionValues& options)
+  static ExportItem document(const DatasetView& dataset, bool same, double size, const OptionValues& options)
   {
-    return { { "transforms.json" }, [&dataset, same, options](ExportSink& sink)
+    return { { "transforms.json" }, [&dataset, same, size, options](ExportSink& sink)
       {
         const CameraRecord& first = dataset.shots().front().camera;
         const bool fisheye = first.model == "fisheye";
         Json head{ { "camera_model", fisheye ? "OPENCV_FISHEYE" : "OPENCV" }, { "is_fisheye", fisheye },
-          { "aabb_scale", boxScale(dataset) }, { "enable_depth_loading", true },
-          { "integer_depth_scale", stepOf(options) }, { "ply_file_path", "points.ply" } };
+          { "aabb_scale", boxScale(size) }, { "enable_depth_loading", true },
+          { "integer_depth_scale", stepOf(dataset, options) }, { "ply_file_path", "points.ply" } };
         if (same)
         {
           head.update(lensOf(first));

@@ -82,12 +82,25 @@ Json placedNode(const Place& first)
   return { { "translation", listOf(first.t) }, { "rotation", rotationOf(first.q) }, { "scale", listOf(first.scale) } };
 }
 
-void animate(
-  Json& animation, Buffer& buffer, std::size_t node, const std::vector<double>& times, const std::vector<Place>& places)
+namespace
 {
-  std::vector<float> t;
-  std::vector<float> q;
-  std::vector<float> scale;
+std::vector<float> rounded(const std::vector<double>& numbers, LayerRounding& account)
+{
+  account.values += numbers.size();
+  for (const double number : numbers)
+  {
+    account.largest = std::max(account.largest, std::abs(double(static_cast<float>(number)) - number));
+  }
+  return { numbers.begin(), numbers.end() };
+}
+} // namespace
+
+void animate(Json& animation, Buffer& buffer, std::size_t node, const std::vector<double>& times,
+  const std::vector<Place>& places, KeyRounding& rounding)
+{
+  std::vector<double> t;
+  std::vector<double> q;
+  std::vector<double> scale;
   Eigen::Vector4d last = places.front().q;
   bool moves[3] = { false, false, false };
   for (const Place& place : places)
@@ -106,24 +119,25 @@ void animate(
     return;
   }
   const std::size_t input = buffer.add({ times.begin(), times.end() }, "SCALAR", Buffer::Use::Animation, true);
-  const auto channel = [&](const char* path, const std::vector<float>& values, const char* type)
+  const auto channel = [&](
+                         const char* path, const std::vector<double>& values, const char* type, LayerRounding& account)
   {
-    const std::size_t output = buffer.add(values, type, Buffer::Use::Animation);
+    const std::size_t output = buffer.add(rounded(values, account), type, Buffer::Use::Animation);
     animation["channels"].push_back(
       { { "sampler", animation["samplers"].size() }, { "target", { { "node", node }, { "path", path } } } });
     animation["samplers"].push_back({ { "input", input }, { "output", output }, { "interpolation", "LINEAR" } });
   };
   if (moves[0])
   {
-    channel("translation", t, "VEC3");
+    channel("translation", t, "VEC3", rounding.places);
   }
   if (moves[1])
   {
-    channel("rotation", q, "VEC4");
+    channel("rotation", q, "VEC4", rounding.turns);
   }
   if (moves[2])
   {
-    channel("scale", scale, "VEC3");
+    channel("scale", scale, "VEC3", rounding.turns);
   }
 }
 

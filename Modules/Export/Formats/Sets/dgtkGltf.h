@@ -57,10 +57,16 @@ struct Place
   Eigen::Vector4d q{ 1, 0, 0, 0 }; ///< w x y z
   Eigen::Vector3d scale{ 1, 1, 1 };
 };
+/// What float32 makes of keys.
+struct KeyRounding
+{
+  LayerRounding places{ "poses", "m", 0, 0, 0 };
+  LayerRounding turns{ "poses", "1", 0, 0, 0 }; ///< and scales
+};
 /// A node of the first place, and channels of an animation where places differ; `times` in seconds.
 Json placedNode(const Place& first);
 void animate(Json& animation, Buffer& buffer, std::size_t node, const std::vector<double>& times,
-  const std::vector<Place>& places);
+  const std::vector<Place>& places, KeyRounding& rounding);
 
 /// How a part of a model looks.
 struct Look

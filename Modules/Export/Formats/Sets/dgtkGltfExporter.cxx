@@ -9,6 +9,8 @@
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -80,6 +82,27 @@ Place placeOf(const CameraRecord& camera, double metres)
   return { pose.translation * metres, quaternionOf(pose.rotation), Eigen::Vector3d::Ones() };
 }
 
+/// Where the middle of all places is, in whole kilometres, metres of the scene's axes: keys are float32, and so are
+/// matrices of many programs, which are fine near 0 alone.
+Eigen::Vector3d originOf(const DatasetView& dataset)
+{
+  constexpr double kilometre = 1000;
+  Eigen::AlignedBox3d box;
+  for (const DatasetShot& shot : dataset.shots())
+  {
+    box.extend(cameraFromWorld(shot.camera).inverse().translation);
+  }
+  for (const int frame : dataset.frames())
+  {
+    for (const PoseRecord& pose : dataset.poses(frame))
+    {
+      box.extend(pose.t);
+    }
+  }
+  const Eigen::Vector3d middle = box.center() * (dataset.metres() / kilometre);
+  return kilometre * middle.array().round().matrix() + Eigen::Vector3d::Zero(); // no -0
+}
+
 /// What there is of an object over the frames.
 struct ObjectPlaces
 {
@@ -103,6 +126,7 @@ public:
     {
       this->Times.push_back(dataset.seconds(frame));
     }
+    this->Origin = originOf(dataset);
   }
 
   void write()
@@ -122,6 +146,13 @@ public:
     }
     this->Buffer.describe(this->Asset, bufferName);
     this->File->finish();
+    for (const LayerRounding& one : { this->Rounding.places, this->Rounding.turns })
+    {
+      if (one.values > 0)
+      {
+        this->Sink.rounding(one);
+      }
+    }
     this->Sink.write(sceneName, this->Asset.dump(1) + '\n');
   }
 
@@ -136,8 +167,14 @@ private:
 
   void addWorld()
   {
+    const Eigen::Vector3d& o = this->Origin;
+    const bool upright = this->Scene.value("upAxis", "y") == "z";
     Json world{ { "name", "world" } };
-    if (this->Scene.value("upAxis", "y") == "z")
+    if (!o.isZero(0))
+    {
+      world["translation"] = { o.x(), upright ? o.z() : o.y(), upright ? -o.y() : o.z() };
+    }
+    if (upright)
     {
       const double half = std::sqrt(0.5);
       world["rotation"] = { -half, 0.0, 0.0, half };
@@ -181,7 +218,7 @@ private:
       std::vector<double> times;
       for (const DatasetShot* shot : shots)
       {
-        places.push_back(placeOf(shot->camera, this->Dataset.metres()));
+        places.push_back(this->fromOrigin(placeOf(shot->camera, this->Dataset.metres())));
         times.push_back(this->Dataset.seconds(shot->frame()));
       }
       Json node = gltf::placedNode(places.front());
@@ -189,8 +226,15 @@ private:
       node["camera"] = this->Asset["cameras"].size();
       this->Asset["cameras"].push_back({ { "name", utf8FromBytes(name) }, { "type", "perspective" },
         { "perspective", perspective }, { "extras", extras } });
-      gltf::animate(this->Animation, this->Buffer, this->addNode(utf8FromBytes(name), node), times, places);
+      gltf::animate(
+        this->Animation, this->Buffer, this->addNode(utf8FromBytes(name), node), times, places, this->Rounding);
     }
+  }
+
+  Place fromOrigin(Place place) const
+  {
+    place.t -= this->Origin;
+    return place;
   }
 
   std::map<std::uint32_t, ObjectPlaces> placesOf(const std::set<std::uint32_t>& objects) const
@@ -206,7 +250,7 @@ private:
           continue;
         }
         ObjectPlaces& one = all[pose.id];
-        one.places.push_back(placeOf(pose, this->Dataset.metres()));
+        one.places.push_back(this->fromOrigin(placeOf(pose, this->Dataset.metres())));
         one.mirrored = isMirrored(pose);
         const bool follows = !one.visible.empty() && one.visible.back()[1] == last;
         if (pose.visible && follows)
@@ -250,8 +294,8 @@ private:
     node["mesh"] = this->meshOf(object, places.mirrored);
     node["extras"] = { { "id", object.id }, { "class", utf8FromBytes(object.objectClass) },
       { "visible_frames", places.visible }, { "deforming", object.deforming }, { "mirrored", places.mirrored } };
-    gltf::animate(
-      this->Animation, this->Buffer, this->addNode(utf8FromBytes(object.name), node), this->Times, places.places);
+    gltf::animate(this->Animation, this->Buffer, this->addNode(utf8FromBytes(object.name), node), this->Times,
+      places.places, this->Rounding);
   }
 
   std::size_t meshOf(const ObjectRecord& object, bool mirrored)
@@ -308,7 +352,7 @@ private:
     Json lights = Json::array();
     for (const gltf::Light& one : gltf::lightsOf(this->Scene, this->Dataset.metres(), approximate, without))
     {
-      Json node = gltf::placedNode(one.place);
+      Json node = gltf::placedNode(this->fromOrigin(one.place));
       node.erase("scale");
       node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
       lights.push_back(one.light);
@@ -327,6 +371,8 @@ private:
   std::unique_ptr<ExportFile> File;
   gltf::Buffer Buffer;
   std::vector<double> Times;
+  Eigen::Vector3d Origin{ 0, 0, 0 };
+  gltf::KeyRounding Rounding;
   Json Asset;
   Json Nodes = Json::array();
   Json Children = Json::array();

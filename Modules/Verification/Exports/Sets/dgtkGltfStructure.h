@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,27 @@ private:
   std::string Path;
   std::vector<std::string> Buffers;
   bool Right = true;
+};
+
+/// The corners of a triangle, the least one first.
+inline std::array<std::size_t, 3> sortedCorners(std::array<std::size_t, 3> corners)
+{
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+/// What moves a node.
+struct GltfChannel
+{
+  Eigen::VectorXd times;
+  Eigen::MatrixXd values;
+  /// The row at a key's time; the nearest one.
+  Eigen::VectorXd at(double time) const
+  {
+    Eigen::Index row = 0;
+    (this->times.array() - time).abs().minCoeff(&row);
+    return this->values.row(row);
+  }
 };
 
 /// One scene with one root; all that is listed is used; limits and targets of accessors; what is the same in all

@@ -23,20 +23,6 @@ namespace
 using Json = nlohmann::json;
 constexpr double single = 5e-7; // of float32 numbers that have been multiplied a few times
 
-/// What moves a node.
-struct GltfChannel
-{
-  Eigen::VectorXd times;
-  Eigen::MatrixXd values;
-  /// The row at a key's time; the nearest one.
-  Eigen::VectorXd at(double time) const
-  {
-    Eigen::Index row = 0;
-    (this->times.array() - time).abs().minCoeff(&row);
-    return this->values.row(row);
-  }
-};
-
 class Asset
 {
 public:
@@ -82,7 +68,9 @@ public:
     this->holds("nodes", children.size() == nodes.size() - 1 && children.count(0) == 0 &&
                            *children.rbegin() < nodes.size() && nodes.at(0).at("children").size() == children.size() &&
                            nodes.at(0).at("name") == "world");
-    const Eigen::Matrix3d turn = this->affine(0, 0).linear();
+    const Eigen::Affine3d world = this->affine(0, 0);
+    const Eigen::Matrix3d turn = world.linear();
+    this->Origin = turn.transpose() * world.translation();
     this->holds("world", apart(turn, this->Up) < 1e-12 && this->Channels.count(0) == 0);
     for (std::size_t i = 1; i < nodes.size(); ++i)
     {
@@ -210,12 +198,14 @@ private:
         continue;
       }
       ++this->Pictures;
+      this->judgeCentre(index, *name);
       this->holds("names", name->frame == frame && node.at("name") == utf8FromBytes(name->camera) &&
                              camera.at("name") == utf8FromBytes(name->camera));
       this->judgeRange(perspective, *name);
       const Eigen::Affine3d pose = this->affine(index, frame);
       const Eigen::Matrix3d R = flip.asDiagonal() * pose.linear().transpose();
-      this->Judge.pose(this->File, name->camera, frame, R, -(R * pose.translation()) / this->Metres, 2e-6);
+      this->Judge.pose(
+        this->File, name->camera, frame, R, -(R * (pose.translation() + this->Origin)) / this->Metres, 2e-6);
       Eigen::Matrix3d K;
       for (std::size_t i = 0; i < requireSize(extras.at("K"), 3); ++i)
       {
@@ -229,6 +219,18 @@ private:
         K(1, 1), 1e-9 * K(1, 1));
       this->Judge.number("field of view", "px", this->File, name->camera, extras.at("width").get<double>() / wide,
         K(0, 0), 1e-9 * K(0, 0));
+    }
+  }
+
+  /// As fine as keys are, however far the world's origin is.
+  void judgeCentre(std::size_t index, const ExportedName& name)
+  {
+    if (const CameraRecord* camera = this->Judge.source().camera(name.camera, name.frame))
+    {
+      const Eigen::Vector3d expected = -(camera->R.transpose() * camera->t) * this->Metres - this->Origin;
+      const double off = apart(this->affine(index, name.frame).translation(), expected);
+      this->Judge.number("pose of cameras", "of the distance from the world's origin", this->File, name.camera,
+        off / std::max(1.0, expected.norm()), 0, single);
     }
   }
 
@@ -285,22 +287,16 @@ private:
       for (std::size_t i = 0; i < model.vertices(); ++i)
       {
         const Eigen::Vector3d expected = this->Metres * (pose.matrix * model.vertex(i).x.homogeneous());
-        const Eigen::Vector3d found = world * Eigen::Vector3d(points.col(Eigen::Index(i)));
-        size = std::max(size, expected.norm());
+        const Eigen::Vector3d found = world * Eigen::Vector3d(points.col(Eigen::Index(i))) + this->Origin;
+        size = std::max(size, (expected - this->Origin).norm());
         largest = larger(largest, (found - expected).norm());
       }
       this->Judge.number(
-        "vertices", "of the distance from the origin", this->File, object->name, largest / size, 0, 1e-6);
+        "vertices", "of the distance from the world's origin", this->File, object->name, largest / size, 0, 1e-6);
     }
     const bool mirrored = this->Poses.at({ *this->Frames.begin(), id }).matrix.leftCols<3>().determinant() < 0;
     this->holds("mirrored", extras.at("mirrored") == mirrored);
     this->judgeMesh(mesh, model, mirrored);
-  }
-
-  static std::array<std::size_t, 3> sortedCorners(std::array<std::size_t, 3> corners)
-  {
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    return corners;
   }
 
   /// The picture on a primitive, and what is beyond it; "" for none.
@@ -435,7 +431,8 @@ private:
     const Eigen::Vector3d target = vector("target", 0);
     const Eigen::Affine3d world = this->affine(index, *this->Frames.begin());
     const Eigen::Vector3d along = (target - place).normalized();
-    const double apart = (world.translation() / this->Metres - place).norm() / std::max(1.0, place.norm());
+    const double apart =
+      ((world.translation() + this->Origin) / this->Metres - place).norm() / std::max(1.0, place.norm());
     const double turn = light.at("type") == "point" ? 0 : (world.linear() * Eigen::Vector3d(0, 0, -1) - along).norm();
     this->Judge.number("lights", "1", this->File, light.at("name"), apart + turn, 0, 1e-9);
     this->holds("light", node.at("name") == light.at("name"));
@@ -477,6 +474,7 @@ private:
   GltfNumbers Numbers;
   double Metres;
   Eigen::Matrix3d Up;
+  Eigen::Vector3d Origin{ 0, 0, 0 }; ///< of the world's children, metres of the scene's axes
   Json Lights;
   std::map<std::pair<int, std::uint32_t>, PoseRecord> Poses;
   std::map<std::size_t, std::map<std::string, GltfChannel>> Channels;
