@@ -66,16 +66,20 @@ bool isPinhole(const CameraRecord& camera)
   return camera.model == "pinhole" && distortionOf(camera).empty() && camera.rollingShutter.duration == 0;
 }
 
+std::string lensText(const CameraRecord& camera)
+{
+  return camera.model + (distortionOf(camera).empty() ? "" : " with distortion") +
+         (camera.rollingShutter.duration == 0 ? "" : " with a rolling shutter");
+}
+
 void requirePinholes(const DatasetView& dataset, const std::string& format)
 {
   for (const DatasetShot& shot : dataset.shots())
   {
     if (!isPinhole(shot.camera))
     {
-      throw UsageError(format + ": camera " + quoted(shot.name()) + " is not a plain pinhole (" + shot.camera.model +
-                       (distortionOf(shot.camera).empty() ? "" : " with distortion") +
-                       (shot.camera.rollingShutter.duration == 0 ? "" : " with a rolling shutter") +
-                       "), which the format cannot say; render a pinhole twin of it");
+      throw UsageError(format + ": camera " + quoted(shot.name()) + " is not a plain pinhole (" +
+                       lensText(shot.camera) + "), which the format cannot say; render a pinhole twin of it");
     }
   }
 }

@@ -185,6 +185,8 @@ DGTKEXPORT_EXPORT Eigen::Vector4d quaternionOf(const Eigen::Matrix3d& rotation);
 DGTKEXPORT_EXPORT bool isPinhole(const CameraRecord& camera);
 /// The model's distortion coefficients, empty for none.
 DGTKEXPORT_EXPORT std::vector<double> distortionOf(const CameraRecord& camera);
+/// What a camera is that is no plain pinhole: "pinhole with distortion with a rolling shutter".
+DGTKEXPORT_EXPORT std::string lensText(const CameraRecord& camera);
 /// Throws a UsageError that names camera and format for what isPinhole() denies.
 DGTKEXPORT_EXPORT void requirePinholes(const DatasetView& dataset, const std::string& format);
 /// The same of a skew, for formats that hold two focal lengths and a principal point alone.

@@ -65,9 +65,9 @@ bool hasSizeOf(const Camera& camera, const Camera& other)
     { return '[' + shortest(first.K(i, 0)) + ", " + shortest(first.K(i, 1)) + ", " + shortest(first.K(i, 2)) + ']'; };
     matrix = "such as \"K\": [" + row(0) + ", " + row(1) + ", " + row(2) + ']';
   }
-  throw UsageError("undistort: camera " + quoted(name) + " (" + first.model +
+  throw UsageError("undistort: camera " + quoted(name) + " (" + lensText(first) +
                    ") needs a pinhole twin, which the dataset lacks; nothing is rendered anew here: add a camera with "
-                   "the same poses to the scene, \"model\": \"pinhole\" without distortion, " +
+                   "the same poses to the scene, \"model\": \"pinhole\" without distortion and rolling shutter, " +
                    std::to_string(first.width) + 'x' + std::to_string(first.height) + ", " + matrix +
                    ", and render it");
 }

@@ -287,7 +287,7 @@ class Frame(datasets.ExportCase):
         self.assertEqual({one["camera"] for one in record["names"]}, {"fish flach"})
         lenses = self.render(datasets.lenses(self.path("lenses")), "color,depth")
         said = self.dgtk("export", lenses, "--format", "tum", "-o", self.path("no"), "--undistort", status=2).stderr
-        self.assertIn("camera 'fish' (fisheye) needs a pinhole twin", said)
+        self.assertIn("camera 'fish' (fisheye with distortion) needs a pinhole twin", said)
         self.assertIn('"K": [[40, 0, 47.5], [0, 40, 36.2], [0, 0, 1]]', said)
         self.assertEqual(len(said.splitlines()), 1)
         self.assertFalse(os.path.exists(self.path("no")))

@@ -41,6 +41,16 @@ def calibration(path):
 
 
 class Kitti(datasets.ExportCase):
+    def test_a_last_frame_alone(self):
+        dataset = self.render(datasets.stereo(self.path("scene")), SCENE_FLOW)
+        self.refused("export", dataset, "--format", "kitti2015", "-o", self.path("no"), "--frames", "2", status=2,
+                     says=("kitti2015: no picture that is exported has layers that the format needs: disparity_forward, flow_forward",
+                           "a last frame is followed by none"))
+        self.refused("export", self.render(self.path("scene", "stereo.json"), "color,disparity"), "--format", "kitti2015", "-o", self.path("no"),
+                     "--frames", "2", status=2, says="kitti2015: the dataset lacks layers that the format needs: disparity_forward, flow_forward, objects")
+        self.refused("export", dataset, "--format", "kitti2015", "-o", self.path("no"), "--cameras", "left eye", status=2,
+                     says="plain pinholes of one size and, but for cx, one matrix, alike turned")
+
     def test_stereo_and_flow(self):
         """Disparity within 1/512, flow within 1/128, valid where the classes say so; the truth against itself has no outlier."""
         dataset = self.render(datasets.stereo(self.path("scene")), SCENE_FLOW)

@@ -102,6 +102,8 @@ class Limits(datasets.ExportCase):
             self.refuses(form, "a rolling shutter", rolling, 0.01, 0, "--cameras", "left")
         self.refuses("colmap", "thin prisms", prisms, 1e-3, 0, "--cameras", "left")
         self.refuses("kitti-depth", "has another matrix at frame 1", zooming, 1e-3, 0, "--cameras", "left")
+        self.nothing("coco", self.with_cameras(rolling, 0.01), ("camera 'left' (pinhole with a rolling shutter) needs a pinhole twin",
+                     "without distortion and rolling shutter"), "--undistort", "--cameras", "left")
         self.refuses("tum", "needs a pinhole twin", beside, 1e-5, 1e-12, "--undistort", "--cameras", "lens")
 
     def refuses_documents(self, form, says, edit, most, *options):

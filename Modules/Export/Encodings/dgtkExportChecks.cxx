@@ -59,11 +59,30 @@ void requireSomeCodes(const std::vector<LayerRounding>& layers, const std::strin
   }
 }
 
+namespace
+{
+/// Whether some picture of the whole dataset has a file of the layer.
+bool hasSome(const Manifest& manifest, const std::string& layer)
+{
+  return std::any_of(manifest.layers.begin(), manifest.layers.end(),
+           [&](const LayerRecord& one) { return one.spec.name == layer; }) &&
+         std::none_of(manifest.empty.begin(), manifest.empty.end(),
+           [&](const EmptyRecord& one) { return one.layer == layer && one.pictures == one.of; });
+}
+} // namespace
+
 void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const std::string& format)
 {
   std::vector<std::string> missing;
   std::copy_if(needs.layers.begin(), needs.layers.end(), std::back_inserter(missing),
     [&](const std::string& layer) { return !dataset.has(layer); });
+  const bool elsewhere = std::all_of(
+    missing.begin(), missing.end(), [&](const std::string& layer) { return hasSome(dataset.manifest(), layer); });
+  if (!missing.empty() && elsewhere)
+  {
+    throw UsageError(format + ": no picture that is exported has layers that the format needs: " + joined(missing) +
+                     " (the dataset has them of other cameras or frames; a last frame is followed by none)");
+  }
   if (!missing.empty())
   {
     throw UsageError(format + ": the dataset lacks layers that the format needs: " + joined(missing) + " (it needs " +
@@ -234,8 +253,8 @@ std::vector<CameraEyes> pairsOf(const DatasetView& dataset, const std::string& f
   }
   if (pairs.empty())
   {
-    throw UsageError(format + ": no two cameras are a rectified pair: plain pinholes of one size and matrix, alike "
-                              "turned, the right one along the left one's x");
+    throw UsageError(format + ": no two cameras are a rectified pair: plain pinholes of one size and, but for cx, one "
+                              "matrix, alike turned, the right one along the left one's x");
   }
   return pairs;
 }
