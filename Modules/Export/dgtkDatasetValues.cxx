@@ -96,6 +96,21 @@ void requireNoSkew(const DatasetView& dataset, const std::string& format)
   }
 }
 
+namespace
+{
+/// Of ASCII.
+std::string lowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+} // namespace
+
+std::string namedClass(const std::string& name) { return name.empty() ? "object" : name; }
+
+void SafeNames::reserve(const std::string& name) { this->Taken.insert(lowerCase(name)); }
+
 std::string SafeNames::of(const std::string& original)
 {
   const auto known = this->Given.find(original);
@@ -111,11 +126,10 @@ std::string SafeNames::of(const std::string& original)
   }
   safe = safe.empty() ? "_" : safe;
   std::string unique = safe;
-  for (int i = 2; this->Taken.count(unique) > 0; ++i)
+  for (int i = 2; !this->Taken.insert(lowerCase(unique)).second; ++i)
   {
     unique = safe + "_" + std::to_string(i);
   }
-  this->Taken[unique] = original;
   this->Given[original] = unique;
   return unique;
 }

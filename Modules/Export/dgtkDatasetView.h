@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -192,20 +193,24 @@ DGTKEXPORT_EXPORT void requirePinholes(const DatasetView& dataset, const std::st
 /// The same of a skew, for formats that hold two focal lengths and a principal point alone.
 DGTKEXPORT_EXPORT void requireNoSkew(const DatasetView& dataset, const std::string& format);
 
-/// Names that are safe in every format: letters, digits, '_' and '-' of ASCII; unique among those that were asked for.
+/// The name of a class for readers that find none where it is empty, as it is of objects without a class.
+DGTKEXPORT_EXPORT std::string namedClass(const std::string& name);
+
+/// Names that are safe in every format: letters, digits, '_' and '-' of ASCII; unique among those that were asked for,
+/// also where upper and lower case are one, as in the files of some systems.
 class DGTKEXPORT_EXPORT SafeNames
 {
 public:
   /// The name of an original, the same for the same.
   std::string of(const std::string& original);
   /// From now on no original has this name; of safe characters.
-  void reserve(const std::string& name) { this->Taken[name]; }
+  void reserve(const std::string& name);
   /// Of one that was asked for before; throws std::out_of_range otherwise.
   const std::string& known(const std::string& original) const { return this->Given.at(original); }
 
 private:
   std::map<std::string, std::string> Given;
-  std::map<std::string, std::string> Taken;
+  std::set<std::string> Taken; ///< in lower case
 };
 
 /// Of the cameras of a dataset, in their order.

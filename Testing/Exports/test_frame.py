@@ -130,6 +130,22 @@ class Frame(datasets.ExportCase):
         [row] = [one for one in self.referee(dataset, folder, 1)["residuals"] if one["layer"] == "record"]
         self.assertEqual((row["bad"], row["worst"]["value"]), (1, "some names are no files (Kamera 1)"))
 
+    def test_names_that_differ_by_case_alone(self):
+        """Have a number, since some systems would write one file over the other; other names do not."""
+        path = datasets.stereo(self.path("scene"), 1)
+        with open(path, encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["cameras"] = [{**scene["cameras"][0], "name": name} for name in ("cam A.1", "Cam a.1", "cam b")]
+        dataset = self.render(self.write(path, json.dumps(scene)), "color", "--for", "coco,yolo,voc,transforms,imagefolder,webdataset")
+        for form in ("coco", "yolo", "voc", "transforms", "imagefolder", "webdataset"):
+            _, record = self.export(dataset, form)
+            files = [one["path"] for one in record["files"]]
+            self.assertEqual(len({name.lower() for name in files}), len(files))
+            names = {one["camera"]: one["name"] for one in record["names"]}
+            self.assertIn("Cam_a_1_000000", names["Cam a.1"])
+            self.assertIn("cam_A_1_2_000000", names["cam A.1"])
+            self.assertIn("cam_b_000000", names["cam b"])
+
     def damaged_notes(self, command, unfinished):
         """What says more of itself than there is ends a run that goes on."""
         damaged = shutil.copytree(unfinished, self.path("damaged"))

@@ -36,7 +36,7 @@ TOLERANCES = {
     "kitti-odometry time": 1e-9 * 1.04, "mcap time": 1e-9, "rosbag time": 1e-9, "tum time": 5.01e-7,  # half a microsecond
     "mvsnet range": 1e-9 * 7.4, "tapvid queries": 6e-8 * (48 + 36), "transforms points": 6e-8 * 2.9,  # of the wall's front
     "gltf brightness": 1e-9 * 0.8 * np.pi, "gltf colors": 1e-3, "gltf field of view": 1e-9 * F, "gltf normals": 5e-7, "gltf pose": 2e-6,
-    "gltf pose of nodes": 5e-7, "gltf quaternion": 5e-7, "gltf range": 1e-9 * 100, "gltf time": 1e-7 * 1.04, "gltf vertices": 1e-6}
+    "gltf pose of cameras": 5e-7, "gltf pose of nodes": 5e-7, "gltf quaternion": 5e-7, "gltf range": 1e-9 * 100, "gltf time": 1e-7 * 1.04, "gltf vertices": 1e-6}
 OF_PIXELS = {"color", "depth", "disparity", "disparity_forward", "flow_forward"}
 
 

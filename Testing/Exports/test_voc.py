@@ -83,13 +83,17 @@ class Voc(datasets.ExportCase):
 
     def test_an_object_without_a_class(self):
         """A reader that finds no text has no name at all."""
-        dataset = self.render(datasets.street(self.path("scene")), LAYERS)
+        dataset = self.render(datasets.street(self.path("scene")), LAYERS + ",amodal")
         folder, record = self.export(dataset, "voc")
         names = set()
         for entry in record["names"]:
             stem = os.path.splitext(os.path.basename(entry["name"]))[0]
             names.update(one.findtext("name") for one in ElementTree.parse(os.path.join(folder, "Annotations", stem + ".xml")).getroot().findall("object"))
         self.assertEqual(names, {"wall", "Car", "delivery van", "object"})
+        with open(os.path.join(self.export(dataset, "coco")[0], "annotations", "instances_train.json"), encoding="utf-8") as file:
+            self.assertEqual({one["name"] for one in json.load(file)["categories"]}, names)
+        with open(os.path.join(self.export(dataset, "yolo")[0], "data.yaml"), encoding="utf-8") as file:
+            self.assertIn(': "object"\n', file.read())
 
     def test_letters_digits_and_minus_are_what_names_keep(self):
         path = datasets.stereo(self.path("scene"), 1)

@@ -56,8 +56,8 @@ Json categoriesOf(const DatasetView& dataset)
   Json categories = Json::array();
   for (const ClassRecord& one : dataset.classes())
   {
-    categories.push_back(
-      { { "id", one.id }, { "name", utf8FromBytes(one.name) }, { "supercategory", utf8FromBytes(one.supercategory) } });
+    categories.push_back({ { "id", one.id }, { "name", utf8FromBytes(namedClass(one.name)) },
+      { "supercategory", utf8FromBytes(one.supercategory) } });
   }
   return categories;
 }

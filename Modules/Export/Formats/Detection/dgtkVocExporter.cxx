@@ -12,8 +12,7 @@ namespace dgtk
 namespace
 {
 constexpr const char* vocName = "voc";
-constexpr std::size_t mostCodes = 254;    ///< 255 is void
-constexpr const char* unnamed = "object"; ///< readers find no name where it is empty
+constexpr std::size_t mostCodes = 254; ///< 255 is void
 
 /// VOC's colours (VOCcode, VOClabelcolormap.m): the bits of a code go to R, G, B in turn, high ones first.
 std::string paletteText()
@@ -72,7 +71,7 @@ std::string xmlOf(const DatasetShot& shot, const std::string& picture, const std
   for (const BoxRecord& box : seen)
   {
     const Eigen::Vector4d& b = *box.visible;
-    text += "  <object>\n    <name>" + escaped(box.objectClass.empty() ? unnamed : box.objectClass) +
+    text += "  <object>\n    <name>" + escaped(namedClass(box.objectClass)) +
             "</name>\n    <pose>Unspecified</pose>\n    <truncated>" +
             std::to_string(int(box.pixelsWhole > box.pixelsAmodal)) + "</truncated>\n    <occluded>" +
             std::to_string(int(box.pixelsVisible < box.pixelsAmodal)) +

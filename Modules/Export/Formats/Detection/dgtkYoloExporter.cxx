@@ -207,7 +207,7 @@ private:
     text += dataset.classes().empty() ? "names: {}\n" : "names:\n";
     for (std::size_t i = 0; i < dataset.classes().size(); ++i)
     {
-      text += "  " + std::to_string(i) + ": " + quotedText(dataset.classes()[i].name) + '\n';
+      text += "  " + std::to_string(i) + ": " + quotedText(namedClass(dataset.classes()[i].name)) + '\n';
     }
     return text;
   }

@@ -247,7 +247,8 @@ void judgeCocoCategories(
   for (std::size_t i = 0; i < std::min(categories.size(), classes.size()); ++i)
   {
     const Json& one = categories[i];
-    const bool same = one.at("id") == classes[i].id && one.at("name") == utf8FromBytes(classes[i].name) &&
+    const std::string name = classes[i].name.empty() ? "object" : utf8FromBytes(classes[i].name);
+    const bool same = one.at("id") == classes[i].id && one.at("name") == name &&
                       one.at("supercategory") == utf8FromBytes(classes[i].supercategory);
     judge.holds("categories", file, std::to_string(i + 1), same, one.dump(), "a class of the dataset");
   }

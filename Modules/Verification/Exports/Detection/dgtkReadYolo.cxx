@@ -243,7 +243,7 @@ void judgeYaml(ExportJudge& judge, const Names& names)
   judge.exact("names", "", file, "classes", double(classes.size()), double(names.classes.size()));
   for (std::size_t i = 0; i < std::min(classes.size(), names.classes.size()); ++i)
   {
-    const std::string expected = utf8FromBytes(names.classes[i].name);
+    const std::string expected = names.classes[i].name.empty() ? "object" : utf8FromBytes(names.classes[i].name);
     judge.holds("names", file, "class " + std::to_string(i), classes[i] == expected, classes[i], expected);
   }
 }
