@@ -144,7 +144,7 @@ public:
     {
       plan.warnings.push_back(
         "transforms.json: aabb_scale is at most " + std::to_string(mostBoxScale) +
-        ", and the cube of cameras and points needs " + shortest(2 * size) +
+        ", and the cube of cameras and points needs " + shortest(std::ceil(2 * size)) +
         ": instant-ngp cuts off what is beyond (bring the scene nearer to 0, or make it smaller)");
     }
     return plan;
