@@ -19,6 +19,7 @@ namespace dgtk
 namespace
 {
 constexpr double samePose = 1e-12; // of unit vectors
+constexpr double sameShape = 1e-5; // of an object's matrix; scenes that people write have some six digits
 constexpr int mostSteps = 60;      // of an iteration that converges in about ten
 
 /// Newton's iteration for the orthogonal factor of the polar decomposition (Higham 1986).
@@ -285,6 +286,27 @@ Eigen::Vector3d ItemMotion::stepInParent(const Start& start, const WorldMotion& 
     return own * (motion.factors.array() - 1).matrix().asDiagonal() * own.transpose() * inParent;
   }
   return inParent;
+}
+
+bool ItemMotion::shears(const WorldMotion& motion) const
+{
+  const auto shearsOne = [&motion](const SceneItem& item, const Start& start)
+  {
+    if (item.kind != SceneItem::Kind::Object || isUnit(start.parent))
+    {
+      return false;
+    }
+    const Eigen::Matrix3d inParent = start.orientation.matrix() * start.scale.asDiagonal();
+    const Eigen::Matrix3d wanted = turn(motion.axis, motion.degrees).matrix() * start.parent * inParent;
+    const Eigen::Matrix3d got = start.parent * turnInParent(start, motion).matrix() * inParent;
+    return (got - wanted).norm() > sameShape * wanted.norm();
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < this->Items.size() && motion.mode == HandleMode::Rotate; ++i)
+  {
+    any = any || shearsOne(this->Items[i], this->Starts[i]);
+  }
+  return any;
 }
 
 void ItemMotion::applyToObject(ObjectDescription& object, const Start& start, const WorldMotion& motion) const

@@ -51,6 +51,10 @@ public:
   /// what is not changed of orientation and scale has no keys). A camera's up vector is changed only where the pose
   /// asks for it.
   void apply(SceneDescription& scene, const WorldMotion& motion) const;
+  /// Whether a rotation of the world cannot be had of one of the objects: its parent's uneven scale shears what turns
+  /// in it. Such a turn is that of the parent's axes without their scale (the polar decomposition's), so that turns
+  /// follow one another as in the world: back is as it was, and so is once around.
+  bool shears(const WorldMotion& motion) const;
 
 private:
   struct Start

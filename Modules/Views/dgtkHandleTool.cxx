@@ -113,9 +113,12 @@ QString HandleTool::describe(const WorldMotion& motion) const
   switch (motion.mode)
   {
     case HandleMode::Rotate:
-      return grip.kind == Handle::Kind::Axis
-               ? tr("Rotate %1\u00b0 about %2").arg(shown(motion.degrees), axisName(grip.axis))
-               : tr("Rotate %1\u00b0").arg(shown(motion.degrees));
+    {
+      const QString turned = grip.kind == Handle::Kind::Axis
+                               ? tr("Rotate %1\u00b0 about %2").arg(shown(motion.degrees), axisName(grip.axis))
+                               : tr("Rotate %1\u00b0").arg(shown(motion.degrees));
+      return this->Items->shears(motion) ? tr("%1, sheared by the parent's uneven scale").arg(turned) : turned;
+    }
     case HandleMode::Scale:
       return f.x() == f.y() && f.y() == f.z() ? tr("Scale by %1").arg(shown(f.x()))
                                               : tr("Scale by %1, %2, %3").arg(shown(f.x()), shown(f.y()), shown(f.z()));

@@ -207,6 +207,34 @@ void TestEditorHandles::ringsRotate()
   QVERIFY(std::abs(2 * std::atan2(wheel.y, wheel.w) - 40 / arrow) < handleTolerance);
 }
 
+/// Below a parent of uneven scale; about the axis of the odd scale they do not.
+void TestEditorHandles::turnsThatShearSaySo()
+{
+  this->openCrate();
+  this->action("rotate")->trigger();
+  this->action("duplicate")->trigger();
+  const QPoint centers[] = { this->pixelOf(front, { 0, 0, 0 }), this->pixelOf(top, { 0, 0, 0 }) };
+  this->document().edit("Hang",
+    [](dgtk::SceneDescription& scene)
+    {
+      scene.objects[0].scale = Eigen::Vector3d(1, 0.5, 1);
+      scene.objects[1].parent = scene.objects[0].name;
+    });
+  for (const int kind : { front, top })
+  {
+    const int half = int(std::lround(arrow * std::sqrt(0.5)));
+    const QPoint end = centers[kind] + QPoint(-half, -half);
+    this->press(kind, centers[kind] + QPoint(half, -half));
+    this->move(kind, centers[kind] + QPoint(0, -half));
+    this->move(kind, end, Qt::ControlModifier);
+    const bool shears = kind == front;
+    QVERIFY(this->told(QString::fromUtf8("Rotate 90\u00b0 about ") + (shears ? "Z" : "Y")));
+    QCOMPARE(this->told(QString::fromUtf8("Rotate 90\u00b0 about Z, sheared by the parent's uneven scale ")), shears);
+    this->release(kind, end);
+    this->action("undo")->trigger();
+  }
+}
+
 void TestEditorHandles::boxesScale()
 {
   this->openCrate();

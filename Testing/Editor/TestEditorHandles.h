@@ -34,6 +34,7 @@ private slots:
   void escapePutsBack();
   void keysAtTheCurrentFrame();
   void childrenMoveInTheWorld();
+  void turnsThatShearSaySo();
   void camerasAndLightsTurn();
   void everyViewMovesTheSame();
   void theContextMenu();

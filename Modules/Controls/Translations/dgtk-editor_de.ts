@@ -902,6 +902,10 @@
         <translation>Um %1° drehen</translation>
     </message>
     <message>
+        <source>%1, sheared by the parent&apos;s uneven scale</source>
+        <translation>%1, durch die ungleiche Skalierung des Elternobjekts geschert</translation>
+    </message>
+    <message>
         <source>Scale by %1</source>
         <translation>Um %1 skalieren</translation>
     </message>

@@ -96,6 +96,35 @@ TEST(ItemMotion, ChildrenOfTurnedParentsTurnTheSameWay)
   }
 }
 
+/// Below a parent that is scaled unevenly a turn shears, unless it is about the axis of the odd scale; back is as
+/// before.
+TEST(ItemMotion, ATurnThatShearsIsKnown)
+{
+  SceneDescription scene = family();
+  EXPECT_FALSE(ItemMotion(scene, placesOf(scene), { secondMoved }, 0)
+                 .shears(rotation(ItemMotion(scene, placesOf(scene), { secondMoved }, 0), { 0, 0, 1 }, 45)));
+  const Quaternion parent = turn(Eigen::Vector3d(0, 0.6, 0.8), 70);
+  scene.objects[0].scale = Eigen::Vector3d(2, 0.5, 2);
+  const Affine3 before = worldOf(scene, 1);
+  const ItemMotion items(scene, placesOf(scene), { firstMoved }, 0);
+  EXPECT_FALSE(items.shears(rotation(items, { 0, 0, 1 }, 45))) << "it has no parent";
+  const ItemMotion child(scene, placesOf(scene), { secondMoved }, 0);
+  const Eigen::Vector3d odd = parent.matrix().col(1);
+  EXPECT_FALSE(child.shears(rotation(child, odd, 45)));
+  EXPECT_FALSE(child.shears(rotation(child, { 0, 0, 1 }, 0)));
+  EXPECT_TRUE(child.shears(rotation(child, { 0, 0, 1 }, 45)));
+  WorldMotion other = rotation(child, { 0, 0, 1 }, 45);
+  other.mode = HandleMode::Move;
+  EXPECT_FALSE(child.shears(other));
+  EXPECT_TRUE(ItemMotion(scene, placesOf(scene), { secondMoved, light }, 0).shears(rotation(child, { 0, 0, 1 }, 45)));
+  for (const double degrees : { 45.0, 60.0, -105.0 })
+  {
+    const ItemMotion next(scene, placesOf(scene), { secondMoved }, 0);
+    next.apply(scene, rotation(next, Eigen::Vector3d(1, 2, -2) / 3, degrees));
+  }
+  EXPECT_LT((worldOf(scene, 1).linear - before.linear).norm(), 1e-11);
+}
+
 TEST(ItemMotion, SeveralTurnAboutTheirCentreAndChildrenOnce)
 {
   SceneDescription scene = family();
