@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
 
+#include "dgtkPathNames.h"
 #include "dgtkUtf8.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace
 std::string inputMessage(
   const std::string& file, long line, const std::string& what, const std::string& expected, const std::string& found)
 {
-  std::string message = file;
+  std::string message = tidied(file);
   if (line >= 1)
   {
     message += ':' + std::to_string(line);

@@ -53,7 +53,7 @@ public:
 };
 
 /// Input that cannot be used. The text is `FILE:LINE: what (expected E, found F)`; LINE is left out when there is none,
-/// or `line` < 1, the parenthesis when both `expected` and `found` are empty.
+/// or `line` < 1, the parenthesis when both `expected` and `found` are empty; FILE is tidied().
 class DGTKCORE_EXPORT InputError : public Error
 {
 public:

@@ -58,13 +58,13 @@ void requireModels(const SceneDescription& scene)
   {
     const ObjectDescription& object = scene.objects[missing.front().objects.front()];
     throw InputError(scene.title(), object.line,
-      "object " + quoted(object.name) + ": model: " + missing.front().path +
+      "object " + quoted(object.name) + ": model: " + tidied(missing.front().path) +
         ": cannot be read: No such file or directory");
   }
   std::string names;
   for (const MissingModel& one : missing)
   {
-    names += (names.empty() ? "" : ", ") + one.path + lineOf(scene, one);
+    names += (names.empty() ? "" : ", ") + tidied(one.path) + lineOf(scene, one);
   }
   throw InputError(scene.title(), std::to_string(missing.size()) + " model files are missing: " + names);
 }

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkMaterialNumbers.h"
 #include "dgtkModelClock.h"
+#include "dgtkPathNames.h"
 #include "dgtkSceneTracks.h"
 
 #include <algorithm>
@@ -245,9 +246,11 @@ void ModelLibrary::addWarnings(const std::vector<std::string>& lines)
   std::set<std::string> known(this->Warnings.begin(), this->Warnings.end());
   for (const std::string& line : lines)
   {
-    if (known.insert(line).second)
+    const std::size_t place = line.find(": "); // of a file, the line's first words
+    const std::string said = place == std::string::npos ? line : tidied(line.substr(0, place)) + line.substr(place);
+    if (known.insert(said).second)
     {
-      this->Warnings.push_back(line);
+      this->Warnings.push_back(said);
     }
   }
 }

@@ -51,4 +51,18 @@ std::string PathNames::relative(const std::string& path, const std::string& fold
   return fs::path(this->of(path)).lexically_relative(from).generic_string();
 }
 
+std::string tidied(const std::string& path)
+{
+  const std::string out = "/..";
+  const std::size_t last = path.rfind(out + '/');
+  if (last == std::string::npos)
+  {
+    return path;
+  }
+  const fs::path folder = path.substr(0, last + out.size());
+  std::error_code error;
+  const bool isSame = fs::equivalent(folder, folder.lexically_normal(), error) && !error;
+  return isSame ? fs::path(path).lexically_normal().string() : path;
+}
+
 } // namespace dgtk

@@ -23,6 +23,9 @@ private:
   std::map<std::string, std::string> Known;
 };
 
+/// A path as a message shows it: without ways into a folder and out again, but where a link makes them lead elsewhere.
+DGTKCORE_EXPORT std::string tidied(const std::string& path);
+
 } // namespace dgtk
 
 #endif

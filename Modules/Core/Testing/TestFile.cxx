@@ -230,6 +230,9 @@ TEST(InputError, SaysWhereAndWhat)
   EXPECT_STREQ(dgtk::InputError("a.ac", 3, "bad number", "a float", dgtk::quoted("x\n")).what(),
     "a.ac:3: bad number (expected a float, found 'x\\x0A')");
   EXPECT_STREQ(dgtk::InputError("a.ac", "is empty").what(), "a.ac: is empty");
+  const dgtk::InputError outside("/usr/../etc/../x.ac", 1, "is bad");
+  EXPECT_STREQ(outside.what(), "/x.ac:1: is bad");
+  EXPECT_EQ(outside.file(), "/usr/../etc/../x.ac");
 }
 
 TEST(ThreadPool, RunsEveryIndexOnceAlsoFromAJob)

@@ -159,3 +159,18 @@ TEST_F(Hostile, NamesOfPathsAreThoseOfTheSystem)
   EXPECT_EQ(names.of("/"), "/");
   EXPECT_EQ(names.of("a/../b"), fs::weakly_canonical(fs::absolute("a/../b")).string());
 }
+
+TEST(PathNames, AMessageHasNoWayInAndOutAgain)
+{
+  const dgtk::test::TemporaryFolder folder;
+  dgtk::makeFolders(folder.path("a/b"));
+  dgtk::makeFolders(folder.path("c"));
+  fs::create_symlink(folder.path("a/b"), folder.path("link"));
+  EXPECT_EQ(dgtk::tidied(folder.path("c/../a/b/../none.ac")), folder.path("a/none.ac"));
+  EXPECT_EQ(dgtk::tidied(folder.path("c/./x.ac")), folder.path("c/./x.ac"));
+  for (const std::string& same : { std::string("../../x"), std::string(".."), std::string(), folder.path("x") })
+  {
+    EXPECT_EQ(dgtk::tidied(same), same);
+  }
+  EXPECT_EQ(dgtk::tidied(folder.path("link/../x")), folder.path("link/../x")) << "it is a/x";
+}

@@ -94,7 +94,7 @@ TEST(ModelLibrary, LooksAreSharedAndWarningsSaidOnce)
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
   {
     scene.objects[i].name = "o" + std::to_string(i);
-    scene.objects[i].model = i == 4 ? "models/empty.ac" : "models/square.ac";
+    scene.objects[i].model = i == 4 ? "models/../models/empty.ac" : "models/square.ac";
   }
   scene.objects[1].position = Vector(1, 2, 3);
   scene.objects[1].className = "other";
@@ -117,7 +117,7 @@ TEST(ModelLibrary, LooksAreSharedAndWarningsSaidOnce)
   EXPECT_EQ(library.size(), 3u) << "plain, blue, empty";
   ASSERT_EQ(library.warnings().size(), 3u);
   EXPECT_THAT(library.warnings()[0], HasSubstr("texture 'red.ppm' not found"));
-  EXPECT_THAT(library.warnings()[1], HasSubstr("empty.ac: has no surfaces"));
+  EXPECT_THAT(library.warnings()[1], HasSubstr(folder.path("models/empty.ac: has no surfaces")));
   EXPECT_THAT(library.warnings()[2], HasSubstr("environment: 'none.hdr' not found"));
   EXPECT_TRUE(library.load(scene));
   EXPECT_EQ(library.warnings().size(), 3u);
