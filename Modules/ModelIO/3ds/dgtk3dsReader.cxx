@@ -485,10 +485,6 @@ ModelContents read3ds(const std::string& path, const ReadOptions& options);
 ModelContents read3ds(const std::string& path, const ReadOptions& options)
 {
   const std::string bytes = readFile(path);
-  if (bytes.empty())
-  {
-    throw InputError(path, "is empty", "a 3DS file", "0 bytes");
-  }
   const ByteReader in(path, bytes);
   if (bytes.size() < chunkHeader || in.u16(0) != Main)
   {

@@ -8,7 +8,9 @@
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 namespace dgtk
 {
@@ -30,6 +32,11 @@ std::string knownExtensions()
 
 ModelContents contentsOf(const ReaderRow& row, const std::string& path, const ReadOptions& options)
 {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error) && std::filesystem::is_empty(path, error) && !error)
+  {
+    throw InputError(path, "is empty", "a model", "0 bytes");
+  }
   const KeptModel kept(options.cache, path, row.info.format);
   std::optional<ModelContents> found = kept.find();
   return found ? std::move(*found) : kept.keep(row.read(path, options));

@@ -294,7 +294,7 @@ TEST(Studio3ds, DamageThatRealFilesHave)
 
 TEST(Studio3ds, Refusals)
 {
-  EXPECT_EQ(refusal("3ds", ""), "model.3ds: is empty (expected a 3DS file, found 0 bytes)");
+  EXPECT_EQ(refusal("3ds", ""), "model.3ds: is empty (expected a model, found 0 bytes)");
   EXPECT_EQ(refusal("3ds", "PK\x03\x04zzzz"), "model.3ds: is not a 3DS file (expected a chunk 4D4D at its start)");
   EXPECT_THAT(refusal("3ds", chunk3ds(0x4d4d, "")), HasSubstr("no model in the file at byte 6"));
   EXPECT_THAT(refusal("3ds", chunk3ds(0x4d4d, u16(0x3d3d) + u32(2))),
