@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -94,36 +95,46 @@ private:
   const Stage& Own;
 };
 
-/// Keeps the rows of one output.
+/// Keeps the rows of the outputs that are wanted.
 class LiveSink : public LayerSink
 {
 public:
-  LiveSink(std::size_t wanted, const LayerSpec& spec, const PixelRect& rect)
-    : Wanted(wanted)
-    , Kept(spec.type, spec.channels, rect.width, rect.y, rect.height)
+  void want(std::size_t output, const std::string& name, const LayerSpec& spec, const PixelRect& rect)
   {
-    std::fill_n(this->Kept.data(), this->Kept.bytes(), std::byte{ 0 });
+    LiveImageRows& image = this->Kept[output];
+    image = { name, Rows(spec.type, spec.channels, rect.width, rect.y, rect.height) };
+    std::fill_n(image.rows.data(), image.rows.bytes(), std::byte{ 0 });
   }
   void rows(std::size_t output, const Rows& rows) override
   {
-    const bool inside = rows.y() >= this->Kept.y() &&
-                        rows.y() + rows.height() <= this->Kept.y() + this->Kept.height() &&
-                        rows.rowBytes() == this->Kept.rowBytes();
-    if (output == this->Wanted && inside)
+    const auto wanted = this->Kept.find(output);
+    if (wanted == this->Kept.end())
     {
-      std::memcpy(
-        this->Kept.data() + this->Kept.rowBytes() * std::size_t(rows.y() - this->Kept.y()), rows.data(), rows.bytes());
+      return;
+    }
+    Rows& kept = wanted->second.rows;
+    if (rows.y() >= kept.y() && rows.y() + rows.height() <= kept.y() + kept.height() &&
+        rows.rowBytes() == kept.rowBytes())
+    {
+      std::memcpy(kept.data() + kept.rowBytes() * std::size_t(rows.y() - kept.y()), rows.data(), rows.bytes());
     }
   }
   void surfaces(std::size_t, const LdiRows&) override {}
   void ranks(std::size_t, const std::vector<CoveredId>&, std::uint32_t) override {}
   void document(std::size_t, const std::string&) override {}
   void shared(const std::string&, const FileRecord&) override {}
-  Rows take() { return std::move(this->Kept); }
+  std::vector<LiveImageRows> take()
+  {
+    std::vector<LiveImageRows> all;
+    for (auto& [output, image] : this->Kept)
+    {
+      all.push_back(std::move(image));
+    }
+    return all;
+  }
 
 private:
-  std::size_t Wanted;
-  Rows Kept;
+  std::map<std::size_t, LiveImageRows> Kept;
 };
 
 int stripRows(int width) { return std::max(8, stripPixels / width / 8 * 8); }
@@ -327,12 +338,19 @@ bool giveBands(const VisibilityBuffer& hits, const std::function<void(const Band
 
 Rows LiveEye::values(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop)
 {
+  std::vector<LiveImageRows> all = this->allValues(layer, hits, stop);
+  return all.empty() ? Rows() : std::move(all.front().rows);
+}
+
+std::vector<LiveImageRows> LiveEye::allValues(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop)
+{
+  LiveSink sink;
   if (layer == draftLayer)
   {
-    LiveSink sink(0, draftSpec(), hits.rect);
+    sink.want(0, layer, draftSpec(), hits.rect);
     const bool done = giveBands(
       hits, [&](const Band& band) { this->Self->draft(band, sink); }, stop);
-    return done ? sink.take() : Rows();
+    return done ? sink.take() : std::vector<LiveImageRows>();
   }
   if (!this->missing(layer).empty())
   {
@@ -348,13 +366,13 @@ Rows LiveEye::values(const std::string& layer, const VisibilityBuffer& hits, con
     this->Self->Queries, this->Self->Pool };
   const PlannedPass planned = passesOf(plan, *this->Self->Own, job).front();
   const std::vector<LayerOutput> outputs = planned.outputs();
-  const auto output =
-    std::find_if(outputs.begin(), outputs.end(), [&](const LayerOutput& one) { return one.spec.name == layer; });
-  if (output == outputs.end())
+  for (std::size_t i = 0; i < outputs.size(); ++i)
   {
-    return {};
+    if (outputs[i].spec.name == layer)
+    {
+      sink.want(i, outputs[i].name, outputs[i].spec, hits.rect);
+    }
   }
-  LiveSink sink(std::size_t(output - outputs.begin()), output->spec, hits.rect);
   const std::unique_ptr<LayerPass> pass = planned.layers.front().layer.makePass(context, planned.layers);
   if (!giveBands(
         hits, [&](const Band& band) { pass->band(band, sink); }, stop))

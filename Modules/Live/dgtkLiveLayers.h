@@ -49,6 +49,13 @@ struct LiveQuestion
 /// The view of a question. Throws what cameraView() throws.
 DGTKLIVE_EXPORT View viewOf(const LiveQuestion& question);
 
+/// One image of a layer.
+struct LiveImageRows
+{
+  std::string name; ///< among the outputs of the picture: "correspondence_right" of the layer's image "correspondence"
+  Rows rows;
+};
+
 /// A view of a scene at a frame, traced by rays: the hits and values that `dgtk render` has of the same camera, frame
 /// and size, by the same layers. One thread at a time.
 class DGTKLIVE_EXPORT LiveEye
@@ -72,6 +79,8 @@ public:
   /// Without rows when it was stopped, where missing() says why there is none, and where the layer needs the whole
   /// picture (LayerNeeds::whole) and these are not all rows. Throws UsageError for an unknown layer.
   Rows values(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop = {});
+  /// Likewise, of all the picture has of that image: one for each other camera where the layer relates two.
+  std::vector<LiveImageRows> allValues(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop = {});
   /// Throws UsageError for an unknown layer.
   LayerSpec spec(const std::string& layer) const;
   /// What the view lacks to have a layer's image; empty: nothing.

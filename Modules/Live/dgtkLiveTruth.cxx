@@ -123,11 +123,17 @@ std::vector<PixelValue> valuesAt(LiveEye& eye, const VisibilityBuffer& rows, int
       continue;
     }
     const LayerSpec spec = eye.spec(layer.name);
-    const Rows values = eye.values(layer.name, rows);
     const bool real = spec.type == PixelType::Float32 || spec.type == PixelType::Float64;
     const double nothing = real ? std::numeric_limits<double>::quiet_NaN() : 0;
-    all.push_back({ spec,
-      values.width() > 0 ? numbers(values, column, row) : std::vector<double>(std::size_t(spec.channels), nothing) });
+    const std::vector<LiveImageRows> images = eye.allValues(layer.name, rows);
+    for (const LiveImageRows& image : images)
+    {
+      all.push_back({ image.name, spec, numbers(image.rows, column, row) });
+    }
+    if (images.empty())
+    {
+      all.push_back({ layer.name, spec, std::vector<double>(std::size_t(spec.channels), nothing) });
+    }
   }
   return all;
 }
@@ -149,6 +155,7 @@ PixelTruth pixelTruth(const LiveQuestion& question, int column, int row, ThreadP
   truth.column = column;
   truth.row = row;
   truth.frame = question.frame;
+  truth.isLinear = view.model->linear().has_value();
   truth.values = valuesAt(eye, rows, column, row);
   if (const Hit& hit = rows.at(column, row); hit.object != 0)
   {

@@ -34,7 +34,7 @@ struct PixelLayer
   std::uint32_t id = 0;
   std::uint32_t part = 0;
   std::uint32_t triangle = 0; ///< within the part
-  double depth = 0;
+  double depth = 0;           ///< of a camera that is not linear the distance along the pixel's ray
   std::array<std::uint8_t, 3> color{};
   double opacity = 1;
 };
@@ -42,6 +42,7 @@ struct PixelLayer
 /// A value of a pixel under a layer's specification.
 struct PixelValue
 {
+  std::string name; ///< of the image: "correspondence_right", whose specification is called "correspondence"
   LayerSpec spec;
   std::vector<double> values; ///< the spec's channels; exact
 };
@@ -60,6 +61,7 @@ struct PixelTruth
   std::uint32_t triangle = 0;     ///< within the part
   std::vector<PixelValue> values; ///< of all liveLayers() but the draft
   std::vector<PixelLayer> layers; ///< near to far
+  bool isLinear = true;           ///< the camera is: depths of `layers` are depths
   std::string message;            ///< why nothing is known
 };
 

@@ -25,6 +25,19 @@ bool isSaid(Meaning meaning)
 {
   return meaning == Meaning::Class || meaning == Meaning::Index || meaning == Meaning::Visibility;
 }
+/// The visibility in the other image, which has the value's name and a word more.
+const PixelValue* visibilityOf(const PixelValue& value, const std::vector<PixelValue>& all)
+{
+  for (const PixelValue& other : all)
+  {
+    const std::size_t stem = other.name.rfind('_');
+    if (other.spec.meaning == Meaning::Visibility && other.name.compare(0, stem, value.name) == 0)
+    {
+      return &other;
+    }
+  }
+  return nullptr;
+}
 } // namespace
 
 QString exactText(double value)
@@ -92,6 +105,7 @@ void TruthPanel::finishRows()
 void TruthPanel::forgetTruth()
 {
   this->Next = 0;
+  this->HasTruth = false;
   const QString hint = tr("Move the mouse over the perspective view.");
   this->setRow(hint, {}, hint);
   this->topLevelItem(0)->setFirstColumnSpanned(true);
@@ -101,6 +115,7 @@ void TruthPanel::forgetTruth()
 void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const QString& units)
 {
   this->Next = 0;
+  this->HasTruth = true;
   this->setRow(tr("View"), tr("%1, frame %2").arg(view, QString::number(truth.frame)));
   this->setRow(tr("Pixel"), tr("column %1, row %2").arg(truth.column).arg(truth.row));
   if (!truth.message.empty())
@@ -127,16 +142,18 @@ void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const Q
   for (const PixelLayer& layer : truth.layers)
   {
     this->setRow(tr("  %1: %2").arg(rank++).arg(toText(layer.object)),
-      tr("depth %1\npart %2, triangle %3").arg(exactText(layer.depth)).arg(layer.part).arg(layer.triangle));
+      (truth.isLinear ? tr("depth %1\npart %2, triangle %3") : tr("distance %1\npart %2, triangle %3"))
+        .arg(exactText(layer.depth))
+        .arg(layer.part)
+        .arg(layer.triangle));
   }
   this->finishRows();
 }
 
 void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
 {
-  for (std::size_t i = 0; i < truth.values.size(); ++i)
+  for (const PixelValue& value : truth.values)
   {
-    const PixelValue& value = truth.values[i];
     const QString name = toText(value.spec.name);
     const bool coverage = value.spec.meaning == Meaning::Id && value.values.size() == 4;
     if (isSaid(value.spec.meaning) || (value.spec.meaning == Meaning::Id && !coverage))
@@ -149,10 +166,13 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
     const QString numbers = exactText(value, QStringLiteral("\n"));
     const bool bare = unit == "1" || unit == "id" || numbers == "-";
     QString text = numbers;
-    const QString what = QString(name).replace('_', ' ');
-    if (numbers != "-" && i + 1 < truth.values.size() && truth.values[i + 1].spec.meaning == Meaning::Visibility)
+    // What the image is of beyond its layer, another camera, has its own name.
+    const QString of = toText(value.name).mid(name.size() + 1);
+    const QString what = QString(name).replace('_', ' ') + (of.isEmpty() ? of : ' ' + of);
+    const PixelValue* const seen = visibilityOf(value, truth.values);
+    if (numbers != "-" && seen != nullptr)
     {
-      text += '\n' + visibilityText(static_cast<std::uint32_t>(truth.values[i + 1].values.front()));
+      text += '\n' + visibilityText(static_cast<std::uint32_t>(seen->values.front()));
     }
     if (coverage)
     {
@@ -167,7 +187,7 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
 QString TruthPanel::text() const
 {
   QStringList lines;
-  for (int i = 0; i < this->topLevelItemCount(); ++i)
+  for (int i = 0; i < this->topLevelItemCount() && this->HasTruth; ++i)
   {
     const QTreeWidgetItem* const row = this->topLevelItem(i);
     lines << row->text(0).replace(",\n", ", ") + '\t' + row->text(1).replace('\n', '\t');
@@ -189,7 +209,10 @@ void TruthPanel::keyPressEvent(QKeyEvent* event)
 {
   if (event->matches(QKeySequence::Copy))
   {
-    QApplication::clipboard()->setText(this->text());
+    if (this->HasTruth)
+    {
+      QApplication::clipboard()->setText(this->text());
+    }
     return;
   }
   QTreeWidget::keyPressEvent(event);

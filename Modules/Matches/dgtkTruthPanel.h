@@ -31,7 +31,7 @@ public:
   /// `units`: of the scene, may be empty.
   void showTruth(const QString& view, const PixelTruth& truth, const QString& units);
   void forgetTruth();
-  /// The rows as lines.
+  /// The rows as lines; "" while there are no values.
   QString text() const;
 
 protected:
@@ -43,6 +43,7 @@ private:
   void showValues(const PixelTruth& truth, const QString& units);
   void finishRows();
   int Next = 0; ///< row that setRow() fills
+  bool HasTruth = false;
 };
 
 } // namespace dgtk

@@ -72,9 +72,9 @@ TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
       }
       this->Listed = listed;
       this->showSubject();
-      this->askSoon();
+      this->seeAnew();
     });
-  connect(&state, &EditorState::frameChanged, this, &TruthView::askSoon);
+  connect(&state, &EditorState::frameChanged, this, &TruthView::seeAnew);
   connect(this->View3D, &SceneView::cameraMoved, this, &TruthView::leaveCamera);
   connect(&views, &SceneViews::lookedThrough, this, &TruthView::lookThrough);
   this->View3D->installEventFilter(this);
@@ -124,14 +124,14 @@ void TruthView::lookThrough(const CameraDescription& camera)
   this->Through = camera;
   this->Listed = this->isListed();
   this->showSubject();
-  this->askSoon();
+  this->seeAnew();
 }
 
 void TruthView::leaveCamera()
 {
   this->Through.reset();
   this->showSubject();
-  this->askSoon();
+  this->seeAnew();
 }
 
 const CameraDescription* TruthView::camera() const
@@ -202,6 +202,15 @@ std::optional<LiveQuestion> TruthView::question()
     question.height = this->View3D->height();
   }
   return question;
+}
+
+void TruthView::seeAnew()
+{
+  if (!this->Mouse)
+  {
+    this->Panel->forgetTruth();
+  }
+  this->askSoon();
 }
 
 void TruthView::askSoon()
@@ -362,10 +371,10 @@ void TruthView::receive(const PixelTruth& truth)
     bool depthSaid = false; // the exact one comes first
     for (const PixelValue& value : truth.values)
     {
-      const QString name = toText(value.spec.name);
+      const QString name = toText(value.name);
       const bool depth = value.spec.meaning == Meaning::Depth && !depthSaid;
       depthSaid = depthSaid || depth;
-      if (depth || name == this->Layer)
+      if (depth || toText(value.spec.name) == this->Layer)
       {
         line += QStringLiteral("  %1 %2").arg(name, exactText(value, QStringLiteral(", ")));
       }
@@ -380,7 +389,7 @@ bool TruthView::eventFilter(QObject* object, QEvent* event)
   {
     case QEvent::Resize:
       this->Picture->setGeometry(this->View3D->rect());
-      this->askSoon();
+      this->seeAnew();
       break;
     case QEvent::Show:
       this->askSoon();
@@ -396,8 +405,7 @@ bool TruthView::eventFilter(QObject* object, QEvent* event)
       }
       break;
     case QEvent::Leave:
-      this->Mouse.reset();
-      this->Panel->forgetTruth();
+      this->Mouse.reset(); // the values stay, to be copied
       emit this->pointed({});
       break;
     default:

@@ -56,6 +56,8 @@ private:
   void leaveCamera();
   void ask();
   void askSoon();
+  /// The scene or the view is another one: the values of a pixel that the mouse has left are of the past.
+  void seeAnew();
   void askPixel(const QPoint& position);
   void receive(const LivePicture& picture, const QString& layer, const QSize& size, int number);
   void receive(const PixelTruth& truth);

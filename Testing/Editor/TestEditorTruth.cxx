@@ -105,12 +105,19 @@ void TestEditorTruth::valuesAreTheDatasets()
     }
   }
   QVERIFY(surfaces > 2);
-  panel->setFocus();
-  QTest::keyClick(panel, Qt::Key_C, Qt::ControlModifier);
-  QVERIFY(QApplication::clipboard()->text().contains("Pixel\tcolumn"));
+  // The mouse goes to the panel, and the values stay.
   QEvent leave(QEvent::Leave);
   QApplication::sendEvent(view, &leave);
+  const QString last = valueOf(panel, "Pixel");
+  panel->setFocus();
+  QTest::keyClick(panel, Qt::Key_C, Qt::ControlModifier);
+  const QString copied = QApplication::clipboard()->text();
+  QVERIFY2(copied.contains("Pixel\t" + last), qPrintable(copied));
+  // In another frame they are of the past, and the hint is not copied.
+  this->Window->findChild<QSpinBox*>("frame")->setValue(1);
   QCOMPARE(panel->topLevelItemCount(), 1);
+  QTest::keyClick(panel, Qt::Key_C, Qt::ControlModifier);
+  QCOMPARE(QApplication::clipboard()->text(), copied);
 }
 
 void TestEditorTruth::previewLeavesTheViewFree()

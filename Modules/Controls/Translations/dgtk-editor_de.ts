@@ -1389,6 +1389,10 @@
         <translation>Das Ziehen nach %1 ist zu Ende: %2</translation>
     </message>
     <message>
+        <source>%1 is not opened: it is no file of this machine</source>
+        <translation>%1 wird nicht geöffnet: es ist keine Datei dieses Rechners</translation>
+    </message>
+    <message>
         <source>Warning: %1 has changed since it was read here. Open the scene again to see it as it is rendered.</source>
         <translation>Warnung: %1 hat sich geändert, seit es hier gelesen wurde. Öffnen Sie die Szene noch einmal, um sie so zu sehen, wie sie berechnet wird.</translation>
     </message>
@@ -2861,6 +2865,12 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <translation>  %1: %2</translation>
     </message>
     <message>
+        <source>distance %1
+part %2, triangle %3</source>
+        <translation>Entfernung %1
+Teil %2, Dreieck %3</translation>
+    </message>
+    <message>
         <source>depth %1
 part %2, triangle %3</source>
         <translation>Tiefe %1
@@ -2920,6 +2930,13 @@ Teil %2, Dreieck %3</translation>
     <message>
         <source>nothing is seen</source>
         <translation>es ist nichts zu sehen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::SceneClipboard</name>
+    <message>
+        <source>The clipboard has no part of a scene</source>
+        <translation>Die Zwischenablage enthält keinen Teil einer Szene</translation>
     </message>
 </context>
 </TS>

@@ -239,6 +239,39 @@ TEST(LiveTruth, APixelIsThePictures)
   EXPECT_THROW(pixelTruth(question, truthWidth, 0, pool), std::exception);
 }
 
+/// Each other camera has its correspondence by its name; surfaces are at depths, or at distances along curved rays.
+TEST(LiveTruth, WhatIsOfEachCameraHasItsName)
+{
+  const std::string file = "Data/Scenes/fisheye_rig.json";
+  const SceneDescription scene = readScene(sourceFile(file));
+  ThreadPool pool(1);
+  std::set<bool> kinds;
+  for (std::size_t camera = 0; camera < scene.cameras.size(); ++camera)
+  {
+    const std::string& own = scene.cameras[camera].name;
+    const LiveQuestion question = questionOf(file, camera, 0, 0, 0);
+    const View view = viewOf(question);
+    const PixelTruth truth = pixelTruth(question, view.model->width() / 2, view.model->height() * 3 / 4, pool);
+    std::set<std::string> names;
+    std::map<std::string, double> values;
+    for (const PixelValue& value : truth.values)
+    {
+      EXPECT_TRUE(names.insert(value.name).second) << value.name;
+      values[value.name] = value.values.front();
+    }
+    for (const CameraDescription& other : scene.cameras)
+    {
+      EXPECT_EQ(names.count("correspondence_" + other.name), own == other.name ? 0u : 1u) << own << ' ' << other.name;
+    }
+    EXPECT_EQ(names.count("correspondence"), 0u);
+    ASSERT_FALSE(truth.layers.empty()) << own;
+    kinds.insert(truth.isLinear);
+    const double expected = values.at(truth.isLinear ? "depth" : "distance");
+    EXPECT_NEAR(truth.layers.front().depth, expected, 1e-9 * expected) << own;
+  }
+  EXPECT_EQ(kinds.size(), 2u);
+}
+
 TEST(LiveTruth, FlowNeedsAFrameBeside)
 {
   const LiveQuestion last = questionOf("Data/Scenes/dataset_flow.json", 0, 2);

@@ -363,6 +363,34 @@ TEST(TruthPanel, SaysWhyNothingIsKnown)
   EXPECT_EQ(panel.text().toStdString(), "View\tleft, frame 7\nPixel\tcolumn 3, row 4\nUnknown\tmill.ac: not found");
 }
 
+TEST(TruthPanel, NamesTheCameraOfEachMatchAndWhatRaysMeasure)
+{
+  test::needApplication();
+  TruthPanel panel(nullptr);
+  EXPECT_EQ(panel.text().toStdString(), "") << "its hint is no value";
+  PixelTruth truth;
+  truth.object = "mill";
+  const LayerSpec match{ "match", PixelType::Float64, 2, "pixels", "", "nan", "where it is", Meaning::Point };
+  const LayerSpec seen{ "match_class", PixelType::UInt8, 1, "class", "", "0", "", Meaning::Visibility };
+  truth.values = { { "match_left_eye", match, { 1, 2 } }, { "match_right", match, { 3, 4 } },
+    { "match_left_eye_class", seen, { 1 } }, { "match_right_class", seen, { 4 } } };
+  truth.layers.resize(1);
+  truth.layers[0].depth = 5;
+  for (const bool isLinear : { true, false })
+  {
+    truth.isLinear = isLinear;
+    panel.showTruth("left", truth, {});
+    const std::string text = panel.text().toStdString();
+    EXPECT_NE(text.find("match left_eye, pixels\t1\t2\tvisible\nmatch right, pixels\t3\t4\toutside the image\n"),
+      std::string::npos)
+      << text;
+    EXPECT_EQ(text.find("\tdepth 5\t") != std::string::npos, isLinear) << text;
+    EXPECT_EQ(text.find("\tdistance 5\t") != std::string::npos, !isLinear) << text;
+  }
+  panel.forgetTruth();
+  EXPECT_EQ(panel.text().toStdString(), "");
+}
+
 TEST(TruthPicture, IsAsLargeAsItsWidgetAllows)
 {
   EXPECT_EQ(TruthPicture::fitted({ 100, 50 }, { 400, 300 }), QRectF(0, 50, 400, 200));
