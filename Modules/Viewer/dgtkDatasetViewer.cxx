@@ -69,6 +69,7 @@ void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& da
     this->chooseAgain();
   }
   this->enableActions(true);
+  this->Grid->takeKeys();
   this->askAll();
   QString line = tr("Cameras: %1, frames: %2, layers: %3")
                    .arg(dataset->cameras().size())

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPaneGrid.h"
 
+#include <QAbstractSpinBox>
 #include <QGridLayout>
+#include <QLineEdit>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +76,7 @@ PicturePane* PaneGrid::makePane(int number)
   connect(
     pane, &PicturePane::rangeAsked, this, [this, pane](const auto& range) { emit this->rangeAsked(pane, range); });
   connect(&pane->view(), &PictureView::activated, this, [this, pane] { this->setActive(pane->number()); });
+  connect(&pane->view(), &PictureView::pointed, this, &PaneGrid::takeKeys);
   connect(&pane->view(), &PictureView::maximizeAsked, this, [this, pane] { this->maximize(pane->number()); });
   connect(&pane->view(), &PictureView::resized, this, &PaneGrid::refreshArea);
   connect(&pane->view(), &PictureView::detailWanted, this,
@@ -155,6 +158,16 @@ void PaneGrid::setActive(int pane)
   if (changed)
   {
     emit this->activated();
+  }
+}
+
+void PaneGrid::takeKeys()
+{
+  QWidget* const focus = this->window()->focusWidget();
+  const bool isTyped = qobject_cast<QLineEdit*>(focus) != nullptr || qobject_cast<QAbstractSpinBox*>(focus) != nullptr;
+  if (qobject_cast<PictureView*>(focus) == nullptr && !isTyped && this->active() != nullptr)
+  {
+    this->active()->view().setFocus();
   }
 }
 

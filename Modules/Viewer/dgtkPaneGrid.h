@@ -30,6 +30,8 @@ public:
   PicturePane* active() const;
   /// This one alone, or all again.
   void maximize(int pane);
+  /// The active picture has the keyboard, unless another one has it or something is being typed.
+  void takeKeys();
   void fit();
   void actualSize();
   /// About the crosshair.

@@ -269,6 +269,7 @@ void PictureView::point(const QPoint& at)
   if (inside) // elsewhere the last pixel stays, to be read at leisure
   {
     this->Sync.setCursor(QPoint(int(std::floor(image.x())), int(std::floor(image.y()))));
+    emit this->pointed();
   }
 }
 

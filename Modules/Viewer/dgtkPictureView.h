@@ -69,6 +69,8 @@ public:
 signals:
   void detailWanted(const dgtk::PixelRect& window, int step);
   void activated();
+  /// The mouse is over a pixel of the picture.
+  void pointed();
   void maximizeAsked();
   void resized();
 

@@ -230,8 +230,12 @@ void TestEditorViewer::zoomIsCommon()
   QVERIFY(viewer != nullptr);
   QWidget* const first = this->picture(viewer, 0);
   QWidget* const last = this->picture(viewer, 3);
+  QVERIFY2(first->hasFocus(), "arrows move the crosshair before anything is clicked");
+  QWidget* const table = viewer->findChild<QTableWidget*>();
+  table->setFocus();
   const QPoint mouse = first->rect().center() + QPoint(37, -22);
   moveMouse(first, mouse);
+  QVERIFY2(first->hasFocus(), "and where the mouse is over a picture");
   const QPoint pixel = pixelOf(viewer);
   QVERIFY(pixel.x() > 0);
   const QPoint elsewhere = mouse + QPoint(30, 30);
