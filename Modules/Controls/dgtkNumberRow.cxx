@@ -6,7 +6,7 @@
 
 #include <QApplication>
 #include <QDialog>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
@@ -24,6 +24,9 @@ namespace dgtk
 
 namespace
 {
+constexpr int mostAbreast = 5;    // numbers in one line
+constexpr int severalAbreast = 4; // of more, which have several lines
+
 /// A field that shows by three points that its number goes on.
 class NumberField : public QLineEdit
 {
@@ -131,16 +134,17 @@ NumberRow::NumberRow(const QString& name, int count, QWidget* parent)
   , Values(static_cast<std::size_t>(count), 0.0)
 {
   this->setObjectName(name);
-  auto* layout = new QHBoxLayout(this);
+  auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(3);
+  const int columns = count > mostAbreast ? severalAbreast : count;
   for (int i = 0; i < count; ++i)
   {
     auto* field = new NumberField(this);
     field->setObjectName(name + '.' + QString::number(i));
     field->setMinimumWidth(38);
     leaveUndo(field);
-    layout->addWidget(field);
+    layout->addWidget(field, i / columns, i % columns);
     this->Fields.push_back(field);
     connect(field, &QLineEdit::returnPressed, this, &NumberRow::commit);
     connect(field, &QLineEdit::editingFinished, this, &NumberRow::leaveField);

@@ -24,9 +24,9 @@ DGTKCONTROLS_EXPORT std::optional<double> numberOf(const QString& text);
 /// The whole number of pixels of an image's side; what no image has stays out of its range.
 DGTKCONTROLS_EXPORT int pixelsOf(double number);
 
-/// One or more numbers side by side. What is typed is taken at Return or when the field is left; a text that is no
-/// number is told, and gives way to the old value; in a dialog it stays, for commitRows(). While something is being
-/// typed, other values do not take its place.
+/// One or more numbers side by side, of many four in a line. What is typed is taken at Return or when the field is
+/// left; a text that is no number is told, and gives way to the old value; in a dialog it stays, for commitRows().
+/// While something is being typed, other values do not take its place.
 class DGTKCONTROLS_EXPORT NumberRow : public QWidget
 {
   Q_OBJECT

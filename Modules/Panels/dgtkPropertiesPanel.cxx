@@ -132,8 +132,11 @@ void PropertiesPanel::rebuild()
     this->Item = selection.front();
     if (selection.size() > 1)
     {
-      this->Form->addRow(
-        new QLabel(tr("%n selected: the first's values, changed for all with the same rows", nullptr, int(selection.size())), page));
+      auto* many = new QLabel(
+        tr("%n selected: the first's values, changed for all with the same rows", nullptr, int(selection.size())),
+        page);
+      many->setWordWrap(true);
+      this->Form->addRow(many);
     }
     const SceneItem item = *this->Item;
     this->addText(

@@ -88,6 +88,26 @@ Size, pixels | size 0 0
   EXPECT_EQ(this->scene().cameras[2].viewHeight.at(0), 9);
 }
 
+/// Beside a scroll bar, in the dock as it is at the first start.
+TEST_F(CameraProperties, AllFieldsFitTheUsualDock)
+{
+  constexpr int usualWidth = 300;
+  this->State->document().edit("Lens",
+    [](SceneDescription& scene)
+    {
+      std::vector<Track<double>>& numbers = scene.cameras[1].parameters["distortion"].numbers;
+      numbers.assign(14, Track<double>{ 0.001 });
+    });
+  for (const SceneItems& items : { SceneItems{ { Kind::Camera, 1 } },
+         SceneItems{ { Kind::Object, 0 }, { Kind::Object, 1 }, { Kind::Light, 0 }, { Kind::Light, 1 } } })
+  {
+    this->State->select(items);
+    EXPECT_LE(this->Panel->widget()->minimumSizeHint().width(), usualWidth) << this->rows();
+  }
+  this->select(Kind::Camera, 1);
+  EXPECT_NE(this->field<QLineEdit>("distortion.13"), nullptr);
+}
+
 TEST_F(CameraProperties, ARefusalNamesNoLineOfTheFile)
 {
   this->select(Kind::Camera, 0);
