@@ -33,25 +33,15 @@ private:
   std::array<std::vector<bool>, 3> Holds;
 };
 
-template <typename T>
-UniqueNames namesOf(const std::vector<T>& things)
-{
-  UniqueNames names;
-  for (const T& thing : things)
-  {
-    names.add(thing.name);
-  }
-  return names;
-}
-
-/// Gives those from `first` on names that no other has.
+/// Gives those from `first` on names that no other before them has: numbers of theirs that ascend go on ascending.
 template <typename T>
 UniqueNames nameAnew(std::vector<T>& things, std::size_t first)
 {
-  UniqueNames names = namesOf(things);
-  for (std::size_t i = first; i < things.size(); ++i)
+  UniqueNames names;
+  for (std::size_t i = 0; i < things.size(); ++i)
   {
-    things[i].name = names.rename(things[i].name);
+    names.add(things[i].name);
+    things[i].name = i < first ? things[i].name : names.rename(things[i].name);
   }
   return names;
 }
@@ -82,6 +72,14 @@ void movePaths(ObjectDescription& object, const SceneDescription& from, const Sc
         path = moved(*path, from, to);
       }
     }
+  }
+}
+
+void movePaths(CameraDescription& camera, const SceneDescription& from, const SceneDescription& to)
+{
+  for (auto& [name, value] : camera.parameters)
+  {
+    value.file = moved(value.file, from, to);
   }
 }
 
@@ -184,6 +182,10 @@ SceneItems appendItems(SceneDescription& scene, const SceneDescription& from)
 
   nameAnew(scene.lights, scene.lights.size() - from.lights.size());
   nameAnew(scene.cameras, scene.cameras.size() - from.cameras.size());
+  for (std::size_t i = scene.cameras.size() - from.cameras.size(); i < scene.cameras.size(); ++i)
+  {
+    movePaths(scene.cameras[i], from, scene);
+  }
   const std::size_t first = scene.objects.size() - from.objects.size();
   const UniqueNames names = nameAnew(scene.objects, first);
   std::map<std::string, std::string> copies;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkUniqueNames.h"
 
+#include <algorithm>
+
 namespace dgtk
 {
 
@@ -39,12 +41,14 @@ std::string UniqueNames::rename(const std::string& name)
   const std::size_t digits = name.size() - (last == std::string::npos ? 0 : last + 1);
   const bool counted = digits > 0 && digits <= mostDigits;
   const std::string stem = counted ? name.substr(0, name.size() - digits) : name + '-';
-  Numbers& after = this->After[stem];
+  const std::size_t width = counted && name[name.size() - digits] == '0' ? digits : 1; // with zeros in front
+  Numbers& after = this->After[stem + std::string(width - 1, '0')];
   for (int number = counted ? std::stoi(name.substr(name.size() - digits)) + 1 : 2;;)
   {
     number = firstFree(after, number);
     after[number] = number + 1;
-    std::string text = stem + std::to_string(number);
+    const std::string shown = std::to_string(number);
+    std::string text = stem + std::string(width - std::min(width, shown.size()), '0') + shown;
     if (this->Holders.emplace(text, 1).second)
     {
       return text;

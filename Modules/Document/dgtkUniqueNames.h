@@ -18,8 +18,8 @@ class DGTKDOCUMENT_EXPORT UniqueNames
 public:
   void add(const std::string& name) { ++this->Holders[name]; }
   bool holds(const std::string& name) const { return this->Holders.count(name) != 0; }
-  /// One of the holders of `name` gets the next free one by its number: Light1 for Light0, tree-2 for tree. The only
-  /// holder keeps it. Returns the new name.
+  /// One of the holders of `name` gets the next free one by its number: Light1 for Light0, tree-2 for tree, oak005 for
+  /// oak004. The only holder keeps it. Returns the new name.
   std::string rename(const std::string& name);
 
 private:

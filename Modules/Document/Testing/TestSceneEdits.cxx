@@ -59,6 +59,37 @@ TEST(SceneEdits, NamesStayUnique)
   EXPECT_EQ(uniqueName({ "a123456789" }, "a123456789"), "a123456789-2");
   EXPECT_EQ(uniqueName({ "a12345678" }, "a12345678"), "a12345679");
   EXPECT_EQ(uniqueName({}, "tree"), "tree");
+  EXPECT_EQ(uniqueName({ "oak003", "oak004", "oak5" }, "oak003"), "oak005");
+  EXPECT_EQ(uniqueName({ "oak099", "oak98" }, "oak099"), "oak100");
+  EXPECT_EQ(uniqueName({ "oak99", "oak09" }, "oak99"), "oak100");
+  EXPECT_EQ(uniqueName({ "0", "00" }, "00"), "01");
+  UniqueNames both;
+  for (const char* name : { "oak3", "oak3", "oak003", "oak003" })
+  {
+    both.add(name);
+  }
+  EXPECT_EQ(both.rename("oak3"), "oak4");
+  EXPECT_EQ(both.rename("oak003"), "oak004") << "oak4 is another name";
+}
+
+/// A second array goes on with the numbers of the first one, in its own order.
+TEST(SceneEdits, NumbersOfWhatIsAddedAscend)
+{
+  const auto numbered = [](int count)
+  {
+    SceneDescription scene;
+    for (int i = 1; i <= count; ++i)
+    {
+      scene.cameras.emplace_back().name = "eye-" + std::to_string(i);
+    }
+    return scene;
+  };
+  SceneDescription scene = numbered(5);
+  appendItems(scene, numbered(7));
+  for (std::size_t i = 0; i < 12; ++i)
+  {
+    EXPECT_EQ(scene.cameras[i].name, "eye-" + std::to_string(i + 1));
+  }
 }
 
 TEST(SceneEdits, ManyNamesStayUnique)
@@ -73,7 +104,7 @@ TEST(SceneEdits, ManyNamesStayUnique)
   EXPECT_EQ(names.rename("a-7"), "a-10");
   EXPECT_EQ(names.rename("a-7"), "a-12");
   EXPECT_EQ(names.rename("a-7"), "a-7");
-  EXPECT_EQ(names.rename("a-007"), "a-13") << "after 7 come those that were taken";
+  EXPECT_EQ(names.rename("a-007"), "a-008") << "a-8 is another name";
   EXPECT_EQ(names.rename("a"), "a-2");
   EXPECT_FALSE(names.holds("a-3"));
   names.add("a-2");
