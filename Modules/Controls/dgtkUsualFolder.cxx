@@ -35,4 +35,17 @@ QStringList localFiles(const QMimeData& dragged)
   return paths;
 }
 
+QStringList foreignAddresses(const QMimeData& dragged)
+{
+  QStringList addresses;
+  for (const QUrl& url : dragged.urls())
+  {
+    if (!url.isLocalFile())
+    {
+      addresses << url.toString(QUrl::RemoveUserInfo);
+    }
+  }
+  return addresses;
+}
+
 } // namespace dgtk

@@ -17,6 +17,8 @@ DGTKCONTROLS_EXPORT QString usualFolder(const QString& kind = "scenes");
 DGTKCONTROLS_EXPORT void rememberFolder(const QString& chosen, const QString& kind = "scenes");
 /// Paths of the files and folders on this machine among what is dragged.
 DGTKCONTROLS_EXPORT QStringList localFiles(const QMimeData& dragged);
+/// Addresses among it that are no files of this machine.
+DGTKCONTROLS_EXPORT QStringList foreignAddresses(const QMimeData& dragged);
 
 } // namespace dgtk
 

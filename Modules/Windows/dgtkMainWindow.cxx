@@ -202,6 +202,10 @@ void MainWindow::dropEvent(QDropEvent* event)
 {
   const QStringList paths = localFiles(*event->mimeData());
   event->acceptProposedAction();
+  for (const QString& address : foreignAddresses(*event->mimeData()))
+  {
+    this->note(tr("%1 is not opened: it is no file of this machine").arg(address));
+  }
   // The program that they come from does not wait for them to be read.
   QTimer::singleShot(0, this,
     [this, paths]

@@ -41,12 +41,15 @@ constexpr int largeWidth = 1600; // pixels of a picture that takes a while
 void TestEditorFiles::filesAreDropped()
 {
   QMimeData data;
-  data.setUrls({ QUrl::fromLocalFile(model("crate.ac")), QUrl::fromLocalFile(model("windmill.gltf")) });
+  data.setUrls({ QUrl::fromLocalFile(model("crate.ac")), QUrl("http://example.org/tree.obj"),
+    QUrl::fromLocalFile(model("windmill.gltf")) });
   QDragEnterEvent enter({ 20, 20 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(this->Window.get(), &enter);
   QVERIFY(enter.isAccepted());
   QDropEvent drop({ 20, 20 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(this->Window.get(), &drop);
+  QVERIFY(this->Window->findChild<QPlainTextEdit*>("log")->toPlainText().contains(
+    "http://example.org/tree.obj is not opened: it is no file of this machine"));
   const dgtk::SceneDocument& document = this->Window->document();
   QTRY_COMPARE(document.scene().objects.size(), std::size_t(2));
   QCOMPARE(document.scene().objects[1].name, std::string("windmill-1"));
