@@ -148,6 +148,7 @@ void EditorState::copy()
   if (!this->Selection.empty())
   {
     this->Clipboard = this->selectedFamilies();
+    emit this->copied();
     emit this->selectionChanged(); // Paste is possible now
   }
 }
@@ -175,8 +176,13 @@ void EditorState::paste()
 {
   if (this->canPaste())
   {
-    this->attempt([this] { this->select(this->Document.paste("Paste", this->Clipboard)); });
+    this->pasteItems(this->Clipboard);
   }
+}
+
+void EditorState::pasteItems(const SceneDescription& part)
+{
+  this->attempt([&] { this->select(this->Document.paste("Paste", part)); });
 }
 
 void EditorState::duplicate()

@@ -50,12 +50,16 @@ public:
   void duplicate();
   void remove();
   bool canPaste() const { return !this->Clipboard.items().empty(); }
+  const SceneDescription& clipboard() const { return this->Clipboard; }
+  /// What another window has copied.
+  void pasteItems(const SceneDescription& part);
 
 signals:
   void changed();
   void selectionChanged();
   void frameChanged(int frame);
   void typingEnds();
+  void copied();
   void failed(const QString& message);
 
 private:

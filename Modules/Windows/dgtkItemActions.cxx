@@ -2,6 +2,7 @@
 #include "dgtkMainWindow.h"
 
 #include "dgtkEditorState.h"
+#include "dgtkSceneClipboard.h"
 #include "dgtkSceneTree.h"
 #include "dgtkSceneViews.h"
 #include "dgtkTimeLineCells.h"
@@ -61,7 +62,7 @@ void MainWindow::refreshItemActions()
     camera = camera || item.kind == SceneItem::Kind::Camera;
   }
   this->findChild<QAction*>("preview")->setEnabled(camera);
-  this->findChild<QAction*>("paste")->setEnabled(this->State->canPaste());
+  this->findChild<QAction*>("paste")->setEnabled(this->Copied->canPaste());
 }
 
 void MainWindow::rename()

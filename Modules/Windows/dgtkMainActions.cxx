@@ -9,6 +9,7 @@
 #include "dgtkMatchDialog.h"
 #include "dgtkNamedAction.h"
 #include "dgtkPropertiesPanel.h"
+#include "dgtkSceneClipboard.h"
 #include "dgtkSceneFiles.h"
 #include "dgtkSceneTree.h"
 #include "dgtkSceneViews.h"
@@ -165,7 +166,7 @@ void MainWindow::makeEditMenu()
   menu->addSeparator();
   connect(add("cut", tr("Cu&t"), QKeySequence::Cut), &QAction::triggered, state, &EditorState::cut);
   connect(add("copy", tr("&Copy"), QKeySequence::Copy), &QAction::triggered, state, &EditorState::copy);
-  connect(add("paste", tr("&Paste"), QKeySequence::Paste), &QAction::triggered, state, &EditorState::paste);
+  connect(add("paste", tr("&Paste"), QKeySequence::Paste), &QAction::triggered, this->Copied, &SceneClipboard::paste);
   connect(
     add("duplicate", tr("Dup&licate"), QKeySequence("Ctrl+D")), &QAction::triggered, state, &EditorState::duplicate);
   connect(add("delete", tr("&Delete"), QKeySequence::Delete), &QAction::triggered, this, &MainWindow::remove);

@@ -8,6 +8,7 @@
 #include "dgtkMatchDialog.h"
 #include "dgtkNamedAction.h"
 #include "dgtkRenderStatus.h"
+#include "dgtkSceneClipboard.h"
 #include "dgtkSceneFiles.h"
 #include "dgtkSceneViews.h"
 #include "dgtkUsualFolder.h"
@@ -69,6 +70,7 @@ void MainWindow::setupApplication()
 MainWindow::MainWindow(QWidget* parent)
   : QMainWindow(parent)
   , State(new EditorState(this))
+  , Copied(new SceneClipboard(*this->State, this))
 {
   this->setObjectName("mainWindow");
   this->setAcceptDrops(true);
@@ -92,6 +94,9 @@ MainWindow::MainWindow(QWidget* parent)
   connect(this->Log, &EditorLog::noted, this,
     [this](const QString& line) { this->statusBar()->showMessage(line, statusTime); });
   connect(this->State, &EditorState::selectionChanged, this, &MainWindow::refresh);
+  connect(this->Copied, &SceneClipboard::changed, this, &MainWindow::refreshItemActions);
+  connect(this->Copied, &SceneClipboard::told, this,
+    [this](const QString& text) { this->statusBar()->showMessage(text, statusTime); });
   connect(this->State, &EditorState::failed, this, &MainWindow::fail);
   connect(this->Work, &BackgroundWork::busyChanged, this, &MainWindow::allowFiles);
   connect(this->Views, &SceneViews::failed, this, &MainWindow::note);

@@ -27,6 +27,7 @@ class MatchDialog;
 class ExportDialog;
 class RenderDialog;
 class RenderStatus;
+class SceneClipboard;
 class SceneDocument;
 class SceneFiles;
 class SceneViews;
@@ -121,6 +122,7 @@ private:
 
   bool IsForDatasets = false;
   EditorState* State;
+  SceneClipboard* Copied;
   BackgroundWork* Work = nullptr;
   SceneViews* Views = nullptr;
   TruthView* Truth = nullptr;

@@ -9,8 +9,11 @@
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
+#include <QClipboard>
 #include <QDialog>
+#include <QDir>
 #include <QFile>
+#include <QFileInfo>
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QOpenGLWidget>
@@ -20,6 +23,7 @@
 #include <QSpinBox>
 #include <QSplitter>
 #include <QStandardPaths>
+#include <QStatusBar>
 #include <QTest>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -141,6 +145,55 @@ void TestEditor::copiesCutsAndPastes()
   QCOMPARE(document.json(), first);
   QCOMPARE(offered("undo"), std::pair(false, false));
   QCOMPARE(offered("redo"), std::pair(true, true));
+}
+
+void TestEditor::pastesWhatOtherWindowsCopied()
+{
+  QClipboard* const clipboard = QApplication::clipboard();
+  clipboard->clear();
+  QVERIFY(!this->action("paste")->isEnabled());
+  // Another window, of a scene in another folder: it may be of another process.
+  const QString far = this->path("far/away");
+  QVERIFY(
+    QDir().mkpath(far) && QFile::copy(QString::fromStdString(sourceFile("Data/Models/crate.ac")), far + "/crate.ac"));
+  {
+    dgtk::MainWindow other;
+    QVERIFY(other.importFile(far + "/crate.ac") && other.saveFile(far + "/s.json"));
+    other.findChild<QAction*>("selectAll")->trigger();
+    other.findChild<QAction*>("copy")->trigger();
+    other.findChild<QAction*>("paste")->trigger();
+    QCOMPARE(other.document().scene().objects.back().name, std::string("crate-2"));
+  }
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  const dgtk::SceneDescription& scene = this->Window->document().scene();
+  const std::size_t objects = scene.objects.size();
+  this->action("paste")->trigger();
+  QCOMPARE(scene.objects.size(), objects + 1);
+  QCOMPARE(QFileInfo(QString::fromStdString(scene.resolve(scene.objects.back().model))).canonicalFilePath(),
+    far + "/crate.ac");
+  QVERIFY(!QFileInfo(QString::fromStdString(scene.objects.back().model)).isAbsolute());
+  this->action("undo")->trigger();
+  // The text alone, as an editor of texts hands it on: its paths are this scene's.
+  QString text = clipboard->text();
+  QVERIFY2(text.contains("\"model\": \"crate.ac\""), qPrintable(text));
+  clipboard->setText(text.replace("crate.ac", QString::fromStdString(scene.objects.front().model)));
+  this->action("paste")->trigger();
+  QCOMPARE(scene.objects.back().model, scene.objects.front().model);
+  QCOMPARE(scene.objects.back().name, std::string("crate-1"));
+  this->action("undo")->trigger();
+  // What is no part of a scene is not pasted, but what was copied here still is.
+  for (const char* const words : { "words", "{ \"objects\": [ {", "{}" })
+  {
+    clipboard->setText(words);
+    this->action("paste")->trigger();
+    QCOMPARE(scene.objects.size(), objects);
+    QCOMPARE(this->Window->statusBar()->currentMessage(), QString("The clipboard has no part of a scene"));
+  }
+  this->select("vase");
+  this->action("copy")->trigger();
+  clipboard->setText("words");
+  this->action("paste")->trigger();
+  QCOMPARE(scene.objects.back().name, std::string("vase-2"));
 }
 
 void TestEditor::aFamilyIsCutAndPasted()

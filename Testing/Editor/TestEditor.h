@@ -14,6 +14,7 @@ private slots:
   void clicksSelectAndDragsMove();
   void keyFramesPlay();
   void copiesCutsAndPastes();
+  void pastesWhatOtherWindowsCopied();
   void aFamilyIsCutAndPasted();
   void addsCamerasAndLights();
   void refusesWithAMessage();
