@@ -419,7 +419,7 @@ TEST(Ac3d, DataMayLookLikeStatements)
 
 TEST(Ac3d, Refusals)
 {
-  EXPECT_EQ(refusal("ac", ""), "model.ac: is not an AC3D file (expected 'AC3D' and a version digit, found '')");
+  EXPECT_EQ(refusal("ac", "\n"), "model.ac:1: is not an AC3D file (expected 'AC3D' and a version digit, found '')");
   for (const char* header : { "v 1 2 3", "AC3D", "AC3Dx", "AC3Db.", "AC3F1", " AC3Db" })
   {
     const bool known = std::string(header) == "AC3Db.";

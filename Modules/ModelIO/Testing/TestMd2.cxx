@@ -289,7 +289,7 @@ TEST(Md2, BlocksMayEndAtTheEndOfTheFile)
 
 TEST(Md2, Refusals)
 {
-  EXPECT_EQ(refusal("md2", ""), "model.md2: is not an MD2 file (expected 'IDP2' at its start, found a shorter file)");
+  EXPECT_EQ(refusal("md2", "ID"), "model.md2: is not an MD2 file (expected 'IDP2' at its start, found a shorter file)");
   EXPECT_THAT(refusal("md2", "IDP3aaaabbbb"), HasSubstr("is not an MD2 file"));
   for (const std::size_t length : { 8, 40, 67 })
   {

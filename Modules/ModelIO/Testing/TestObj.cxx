@@ -449,7 +449,7 @@ TEST(Obj, Refusals)
   }
   EXPECT_EQ(refusal("obj", "<html>\n"),
     "model.obj: has nothing of a Wavefront OBJ file (expected statements such as v and f, found none)");
-  EXPECT_EQ(refusal("obj", "\n# empty\n"), refusal("obj", ""));
+  EXPECT_EQ(refusal("obj", "\n# empty\n"), refusal("obj", "\n"));
   ObjFolder folder;
   folder.write("a.mtl", "newmtl m\nKd 1 green 0\n");
   EXPECT_THAT(thrownBy<dgtk::InputError>([&] { folder.read("mtllib a.mtl\n" + triangle); }),

@@ -162,7 +162,7 @@ TEST(Off, PointsLinesAndWhatCannotBeDrawn)
 
 TEST(Off, Refusals)
 {
-  EXPECT_EQ(refusal("off", ""), "model.off:1: ends too soon (expected [ST][C][N][4][n]OFF, found end of file)");
+  EXPECT_EQ(refusal("off", "\n"), "model.off:2: ends too soon (expected [ST][C][N][4][n]OFF, found end of file)");
   EXPECT_EQ(refusal("off", "NCOFF\n"), "model.off:1: is no OFF file (expected [ST][C][N][4][n]OFF, found 'NCOFF')");
   EXPECT_EQ(
     refusal("off", "OFF BINARY\n\1\2"), "model.off:1: is binary, which is not read (expected text, found 'BINARY')");

@@ -443,7 +443,7 @@ TEST(Ply, LyingCountsAreRefusedBeforeAnythingIsAllocated)
 TEST(Ply, RefusalsNameTheLine)
 {
   EXPECT_THAT(refusal("ply", "plx\n"), HasSubstr(":1: is not a PLY file (expected ply, found 'plx')"));
-  EXPECT_THAT(refusal("ply", ""), HasSubstr("is not a PLY file"));
+  EXPECT_THAT(refusal("ply", "\n"), HasSubstr("is not a PLY file"));
   EXPECT_THAT(refusal("ply", "ply\nformat ascii 1.0\nelement vertex 1\n"),
     HasSubstr("header ends too soon (expected end_header, found end of file)"));
   EXPECT_THAT(refusal("ply", changed(asciiQuad, "format ascii", "format utf8")), HasSubstr(":2: unknown format"));

@@ -155,7 +155,7 @@ TEST(Stl, ColoursAreWarnedOf)
 TEST(Stl, Refusals)
 {
   EXPECT_EQ(
-    refusal("stl", ""), "model.stl: the header at byte 0 run past the end of the file (expected 84 bytes, found 0)");
+    refusal("stl", "x"), "model.stl: the header at byte 0 run past the end of the file (expected 84 bytes, found 1)");
   EXPECT_EQ(refusal("stl", binary("", 0, 2)),
     "model.stl: triangles at byte 84 run past the end of the file (expected 100 bytes, found 50)");
   EXPECT_EQ(refusal("stl", binary("solid by its header only", 0, 2)), refusal("stl", binary("", 0, 2)));

@@ -75,7 +75,7 @@ TEST(Fbx, WhatIsNoFileOfVersion7IsRefused)
   EXPECT_THAT(refusal("fbx", maker.text()), HasSubstr("has version 6100 of FBX: 7000 (FBX 2011) and later are read"));
   maker.version = 0;
   EXPECT_THAT(refusal("fbx", maker.text()), HasSubstr("has nothing of an FBX file"));
-  EXPECT_THAT(refusal("fbx", ""), HasSubstr("has nothing of an FBX file"));
+  EXPECT_THAT(refusal("fbx", "\n"), HasSubstr("has nothing of an FBX file"));
   EXPECT_THAT(refusal("fbx", "a: 1\nb 2\n"), HasSubstr("expected a colon, on line 2"));
   EXPECT_THAT(refusal("fbx", "a: \"x\n"), HasSubstr("a text does not end, on line 1"));
   EXPECT_THAT(refusal("fbx", "a: {\nb: 1\n"), HasSubstr("an element does not end, on line 3"));
