@@ -43,6 +43,19 @@ private:
   std::map<std::string, std::vector<std::string>> Listings;
 };
 
+/// What a picture is for. It matters where a file has light (.exr, .hdr, TIFF of floats): colours are its sRGB codes.
+enum class TextureUse
+{
+  Color,
+  Data ///< normals, heights, roughness, ...: the values as they are
+};
+
+/// Of one of materialTextures.
+inline TextureUse useOf(int Material::*texture)
+{
+  return texture == &Material::texture || texture == &Material::emissionMap ? TextureUse::Color : TextureUse::Data;
+}
+
 /// The pictures of files that a scene shows: each is decoded once, whatever number of models names it. Together they
 /// may take 4096 MiB of memory, whatever the machine has, or as many as the environment variable DGTK_TEXTURE_MEMORY
 /// says. Thread-safe.
@@ -61,7 +74,7 @@ public:
   /// Takes what the picture of a file will need, unless that was done. False, and `problem` set, when it is no picture.
   bool reserve(const std::string& path, std::string& problem);
   /// What decodeTexture() says of a picture that was reserved, decoded at the first call.
-  std::shared_ptr<const Image> decode(const std::string& path, std::string& problem);
+  std::shared_ptr<const Image> decode(const std::string& path, TextureUse use, std::string& problem);
 
 private:
   struct Entry;
@@ -75,10 +88,10 @@ private:
 
 /// Decodes a picture to RGBA, rows top to bottom, in a process of its own: whatever the file does to its decoder, the
 /// picture is lost and nothing else. Null, and `problem` set, when it cannot be decoded or is larger than 16384 a side.
-/// An alpha channel that is 0 everywhere is taken as absent. Throws MachineError when memory is short, or beyond
-/// what `store` may hold (null: one of its own).
+/// An alpha channel that is 0 everywhere is taken as absent; what is brighter than white is white. Throws MachineError
+/// when memory is short, or beyond what `store` may hold (null: one of its own).
 DGTKMODELIO_EXPORT std::shared_ptr<const Image> decodeTexture(
-  const std::string& path, std::string& problem, TextureStore* store = nullptr);
+  const std::string& path, std::string& problem, TextureStore* store = nullptr, TextureUse use = TextureUse::Color);
 
 /// Decodes a picture of light: .hdr and .exr as they are, others from sRGB. Null, and `problem` set, as above; also
 /// where a value is not finite. Negative values become 0.

@@ -16,7 +16,7 @@ namespace dgtk
 namespace
 {
 /// A model's path as it was read, and the pictures that a scene in this folder gives it.
-using Variant = std::tuple<std::string, std::vector<std::string>, std::string>;
+using Variant = std::tuple<std::string, std::vector<ScenePicture>, std::string>;
 
 std::uint64_t bytesOf(const Image& image) { return image.rgba.size(); }
 
@@ -47,7 +47,7 @@ struct SceneSeries::Impl
   std::uint64_t Limit;
   std::uint64_t Scene = 0;
   std::map<Variant, Kept<ReadFiles::File>> Models;
-  std::map<std::string, Kept<std::shared_ptr<const Image>>> Images;
+  std::map<ScenePicture, Kept<std::shared_ptr<const Image>>> Images;
   std::string Environment;
   std::shared_ptr<const RadianceImage> Light;
 
@@ -71,7 +71,7 @@ ReadFiles SceneSeries::Impl::knownFor(const SceneDescription& scene)
   struct Wanted
   {
     std::string path;
-    std::vector<std::string> pictures;
+    std::vector<ScenePicture> pictures;
   };
   std::map<std::string, Wanted> wanted;      ///< by PathNames::of()
   std::map<std::string, std::string> places; ///< of models as written

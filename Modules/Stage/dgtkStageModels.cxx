@@ -251,16 +251,17 @@ void StageModels::countPictures(const Model& model, std::size_t textures)
   }
 }
 
-void addPictures(const ObjectDescription& object, std::vector<std::string>& listed)
+void addPictures(const ObjectDescription& object, std::vector<ScenePicture>& listed)
 {
+  static_assert(materialPictures.size() == materialTextures.size());
   for (const MaterialOverride& material : object.materials)
   {
-    for (const auto picture : materialPictures)
+    for (std::size_t i = 0; i < materialPictures.size(); ++i)
     {
-      const std::string name = (material.*picture).value_or("");
-      if (!name.empty() && std::find(listed.begin(), listed.end(), name) == listed.end())
+      const ScenePicture picture{ (material.*materialPictures[i]).value_or(""), useOf(materialTextures[i]) };
+      if (!picture.first.empty() && std::find(listed.begin(), listed.end(), picture) == listed.end())
       {
-        listed.push_back(name);
+        listed.push_back(picture);
       }
     }
   }
@@ -295,7 +296,7 @@ void StageModels::addTextures()
       const bool none = file.model->uvs.empty();
       if ((none || hasUnplaced(*file.model)) && file.model->textures[file.ownTextures + k].image)
       {
-        this->warn(this->Scene.title() + ": texture " + quoted(file.pictures[k]) + ": " + file.model->path +
+        this->warn(this->Scene.title() + ": texture " + quoted(file.pictures[k].first) + ": " + file.model->path +
                    (none ? " has no texture coordinates" : " has surfaces without texture coordinates"));
       }
     }
@@ -316,15 +317,16 @@ std::shared_ptr<const Model> StageModels::withPictures(const ReadFiles::File& fi
 {
   auto copy = std::make_shared<Model>(*file.model);
   copy->textures.resize(file.ownTextures);
-  for (const std::string& written : file.pictures)
+  for (const ScenePicture& written : file.pictures)
   {
     copy->textures.push_back(this->makeTexture(written));
   }
   return copy;
 }
 
-Texture StageModels::makeTexture(const std::string& written)
+Texture StageModels::makeTexture(const ScenePicture& picture)
 {
+  const auto& [written, use] = picture;
   Texture texture;
   texture.name = written;
   const std::string path = this->Scene.resolve(written);
@@ -336,9 +338,9 @@ Texture StageModels::makeTexture(const std::string& written)
   std::string problem = "not found (tried: " + tried + ')';
   if (!texture.path.empty())
   {
-    const auto known = this->Known.images.find(texture.path);
-    texture.image =
-      known != this->Known.images.end() ? known->second : decodeTexture(texture.path, problem, this->Pictures.get());
+    const auto known = this->Known.images.find({ texture.path, use });
+    texture.image = known != this->Known.images.end() ? known->second
+                                                      : decodeTexture(texture.path, problem, this->Pictures.get(), use);
     if (known != this->Known.images.end() && this->Counted.insert(texture.image.get()).second)
     {
       this->Pictures->take(texture.path, texture.image->width, texture.image->height, texture.image->rgba.size());
@@ -346,7 +348,7 @@ Texture StageModels::makeTexture(const std::string& written)
   }
   if (texture.image)
   {
-    this->Read.images[texture.path] = texture.image;
+    this->Read.images[{ texture.path, use }] = texture.image;
   }
   if (!texture.image)
   {
@@ -395,9 +397,9 @@ void StageModels::applySkin(const ObjectDescription& object, const Model& model,
   }
 }
 
-int StageModels::textureOf(const Model& model, const std::string& written) const
+int StageModels::textureOf(const Model& model, const ScenePicture& written) const
 {
-  return written.empty() ? -1 : this->Textures.at({ &model, written });
+  return written.first.empty() ? -1 : this->Textures.at({ &model, written });
 }
 
 void StageModels::applyOverride(const ObjectDescription& object, const Model& model, const MaterialOverride& change,
@@ -423,14 +425,13 @@ void StageModels::applyOverride(const ObjectDescription& object, const Model& mo
     }
     if (change.texture)
     {
-      setTexture(material, model, this->textureOf(model, *change.texture));
+      setTexture(material, model, this->textureOf(model, { *change.texture, TextureUse::Color }));
     }
-    static_assert(materialPictures.size() == materialTextures.size());
     for (std::size_t i = 1; i < materialPictures.size(); ++i) // all but the one that is set above
     {
       const std::optional<std::string>& picture = change.*materialPictures[i];
       int& texture = material.*materialTextures[i];
-      texture = picture ? this->textureOf(model, *picture) : texture;
+      texture = picture ? this->textureOf(model, { *picture, useOf(materialTextures[i]) }) : texture;
     }
   }
   if (!used && change.material != "*")

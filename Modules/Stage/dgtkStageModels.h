@@ -7,15 +7,20 @@
 #include "dgtkModelSource.h"
 #include "dgtkPathNames.h"
 #include "dgtkStage.h"
+#include "dgtkTextureFile.h"
 
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dgtk
 {
+
+/// A picture that a scene gives to materials, by its name or path.
+using ScenePicture = std::pair<std::string, TextureUse>;
 
 /// What was read for a scene, for those that are like it.
 struct ReadFiles
@@ -23,18 +28,18 @@ struct ReadFiles
   struct File
   {
     std::shared_ptr<const Model> model;
-    std::size_t ownTextures = 0;       ///< the others are the scene's:
-    std::vector<std::string> pictures; ///< as written
+    std::size_t ownTextures = 0;        ///< the others are the scene's:
+    std::vector<ScenePicture> pictures; ///< as written
   };
   std::map<std::string, File> models; ///< by PathNames::of(), as the other paths
   std::string folder;                 ///< where the scene's paths start
   std::string environment;            ///< its picture's path
   std::shared_ptr<const RadianceImage> light;
-  std::map<std::string, std::shared_ptr<const Image>> images; ///< that scenes give to materials, by their paths
+  std::map<ScenePicture, std::shared_ptr<const Image>> images; ///< by their paths
 };
 
 /// Adds the pictures that an object gives to materials of its model, as written, unless they are listed.
-void addPictures(const ObjectDescription& object, std::vector<std::string>& listed);
+void addPictures(const ObjectDescription& object, std::vector<ScenePicture>& listed);
 
 /// Everything that the objects of a scene need from files, each file read once.
 class StageModels : public ModelSource
@@ -65,12 +70,12 @@ private:
   void addTextures();
   bool hasPictures(const std::string& place, const ReadFiles::File& file) const;
   std::shared_ptr<const Model> withPictures(const ReadFiles::File& file);
-  Texture makeTexture(const std::string& written);
+  Texture makeTexture(const ScenePicture& written);
   MaterialList makeMaterials(std::size_t object) const;
   void applySkin(const ObjectDescription& object, const Model& model, std::vector<Material>& materials) const;
   void applyOverride(const ObjectDescription& object, const Model& model, const MaterialOverride& change,
     std::vector<Material>& materials) const;
-  int textureOf(const Model& model, const std::string& written) const;
+  int textureOf(const Model& model, const ScenePicture& written) const;
   void readEnvironment();
   void addFile(const std::string& path);
   void warn(const std::string& line) const;
@@ -88,7 +93,7 @@ private:
   std::vector<MaterialList> Materials;
   std::shared_ptr<const EnvironmentState> Environment;
   std::shared_ptr<GeometryCache> Geometries = std::make_shared<GeometryCache>();
-  std::map<std::pair<const Model*, std::string>, int> Textures; ///< texture of the scene -> index in the model
+  std::map<std::pair<const Model*, ScenePicture>, int> Textures; ///< texture of the scene -> index in the model
   std::vector<std::string> Files;
 };
 

@@ -121,6 +121,7 @@ private:
   {
     std::size_t texture = 0;
     picture::Source source;
+    TextureUse use = TextureUse::Color;
     bool isPicture = false;
     std::string problem;
   };
@@ -167,8 +168,41 @@ private:
     return found == (fs::path(this->Made.path).parent_path() / written).lexically_normal() ? found : std::string();
   }
 
+  /// Data are the pictures that no material has for a colour, nor for a mask.
+  std::vector<TextureUse> uses() const
+  {
+    std::vector<TextureUse> uses(this->Contents.pictures.size(), TextureUse::Color);
+    const auto set = [&uses](int texture, TextureUse use)
+    {
+      if (texture >= 0)
+      {
+        uses.at(std::size_t(texture)) = use;
+      }
+    };
+    for (const TextureUse use : { TextureUse::Data, TextureUse::Color })
+    {
+      for (std::size_t i = 0; i < this->Made.materials.size(); ++i)
+      {
+        for (const auto texture : materialTextures)
+        {
+          if (useOf(texture) == use)
+          {
+            set(this->Made.materials[i].*texture, use);
+          }
+        }
+        set(use == TextureUse::Color ? this->Contents.alpha[i].mask : -1, use);
+      }
+    }
+    for (std::size_t i = 0; i < uses.size(); ++i)
+    {
+      const std::int32_t same = this->Contents.pictures[i].same;
+      uses[i] = same == ModelPicture::own ? uses[i] : uses.at(std::size_t(same));
+    }
+    return uses;
+  }
+
   /// What is there already is taken from the budget, and what names the same file as another once.
-  std::vector<Job> jobs()
+  std::vector<Job> jobs(const std::vector<TextureUse>& uses)
   {
     std::vector<Job> jobs;
     for (std::size_t i = 0; i < this->Made.textures.size(); ++i)
@@ -191,11 +225,11 @@ private:
       }
       else if (picture.isInFile())
       {
-        jobs.push_back({ i, { texture.path, picture.type, &picture.bytes }, false, {} });
+        jobs.push_back({ i, { texture.path, picture.type, &picture.bytes }, uses[i], false, {} });
       }
-      else if (!texture.path.empty() && this->ByPath.emplace(texture.path, nullptr).second)
+      else if (!texture.path.empty() && this->ByPath.emplace(std::pair(texture.path, uses[i]), nullptr).second)
       {
-        jobs.push_back({ i, { texture.path, extensionOf(texture.path), nullptr }, false, {} });
+        jobs.push_back({ i, { texture.path, extensionOf(texture.path), nullptr }, uses[i], false, {} });
       }
     }
     return jobs;
@@ -204,10 +238,12 @@ private:
   /// First all sizes are counted, then pixels are made.
   void decode()
   {
-    std::vector<Job> jobs = this->jobs();
+    const std::vector<TextureUse> uses = this->uses();
+    std::vector<Job> jobs = this->jobs(uses);
     for (Job& job : jobs)
     {
-      job.isPicture = job.source.bytes ? takeTexels(job.source, *this->Store, job.problem)
+      picture::Answer size;
+      job.isPicture = job.source.bytes ? takeTexels(job.source, *this->Store, size, job.problem)
                                        : this->Store->reserve(job.source.path, job.problem);
     }
     for (Job& job : jobs)
@@ -216,8 +252,8 @@ private:
       const bool embedded = job.source.bytes != nullptr;
       if (job.isPicture)
       {
-        texture.image = embedded ? decodeTexels(job.source, AlphaRule::Meant, job.problem)
-                                 : this->Store->decode(job.source.path, job.problem);
+        texture.image = embedded ? decodeTexels(job.source, job.use, AlphaRule::Meant, job.problem)
+                                 : this->Store->decode(job.source.path, job.use, job.problem);
       }
       if (!texture.image)
       {
@@ -226,7 +262,7 @@ private:
       }
       if (!embedded)
       {
-        this->ByPath[texture.path] = texture.image;
+        this->ByPath[{ texture.path, job.use }] = texture.image;
       }
     }
     for (std::size_t i = 0; i < this->Made.textures.size(); ++i)
@@ -238,7 +274,7 @@ private:
         texture.image = this->Made.textures[static_cast<std::size_t>(same)].image;
         continue;
       }
-      const auto known = this->ByPath.find(texture.path);
+      const auto known = this->ByPath.find({ texture.path, uses[i] });
       const bool isFile = !this->Contents.pictures[i].isInFile();
       texture.image = isFile && known != this->ByPath.end() ? known->second : texture.image;
     }
@@ -372,7 +408,7 @@ private:
   std::shared_ptr<TextureStore> Store;
   std::vector<std::string> NotFound; ///< a line a picture, "" for those that were found
   std::vector<std::string> NotDecoded;
-  std::map<std::string, std::shared_ptr<const Image>> ByPath;
+  std::map<std::pair<std::string, TextureUse>, std::shared_ptr<const Image>> ByPath;
   std::map<std::tuple<int, std::int32_t, MaskValue, double>, int> Masked; ///< (texture, mask, what of it, inverse)
   std::map<std::tuple<int, double, double>, int> Remade;                  ///< (texture, cut-off, opacity)
 };

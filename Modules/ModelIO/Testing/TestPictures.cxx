@@ -176,7 +176,7 @@ TEST(Pictures, ASoundPictureOfEveryFormatIsWhatTheLibraryReads)
     const std::vector<std::uint8_t> expected = texelsOf(path);
     ASSERT_FALSE(expected.empty()) << extension;
     std::string problem;
-    const auto image = dgtk::decodeTexture(path, problem);
+    const auto image = dgtk::decodeTexture(path, problem, nullptr, dgtk::TextureUse::Data);
     ASSERT_TRUE(image) << extension << ": " << problem;
     EXPECT_EQ(image->width, width) << extension;
     EXPECT_EQ(image->height, height) << extension;

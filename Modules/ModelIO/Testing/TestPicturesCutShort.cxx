@@ -11,6 +11,8 @@
 #include <cstdio> // before jpeglib.h
 #include <cstdlib>
 #include <jpeglib.h>
+#include <map>
+#include <png.h>
 
 using namespace dgtk::test;
 
@@ -214,6 +216,103 @@ TEST(Pictures, TablesThatPlaceRowsBeyondTheFileAreOfOneCutShort)
   std::string white = tiff(false, false, 8); // with a white point, at the end, in place of the samples a pixel
   white.replace(white.find(u16(277) + u16(4)), 12, u16(318) + u16(5) + u32(2) + u32(408));
   expectCutShort("a.tif", white + u32(1) + u32(3) + u32(1) + u32(3), 1);
+}
+
+namespace
+{
+/// Big-endian.
+std::string most(std::uint32_t value, int size)
+{
+  std::string text;
+  while (size-- > 0)
+  {
+    text += char(value >> (8 * size));
+  }
+  return text;
+}
+
+std::string repeated(const std::string& what, std::size_t times)
+{
+  std::string text;
+  for (std::size_t i = 0; i < times; ++i)
+  {
+    text += what;
+  }
+  return text;
+}
+} // namespace
+
+// Pictures of one colour are whole in very few bytes; as textures and, of those that are light, as environments.
+TEST(Pictures, OnesOfOneColourAreNotCutShort)
+{
+  const TemporaryFolder folder;
+  std::map<std::string, std::string> pictures;
+  for (const std::string extension :
+    { "png", "jpg", "tga", "bmp", "gif", "tif", "exr", "hdr", "webp", "jp2", "psd", "sgi", "ppm", "dds" })
+  {
+    const auto output = OIIO::ImageOutput::create(extension);
+    OIIO::ImageSpec spec(2032, 64, 3, OIIO::TypeDesc::UINT8);
+    spec["compression"] = extension == "tga" ? "rle" : "zip";
+    const std::vector<std::uint8_t> values(std::size_t(2032 * 64 * 3), 188);
+    if (output && output->open(folder.path("a." + extension), spec) &&
+        output->write_image(OIIO::TypeDesc::UINT8, values.data()) && output->close())
+    {
+      pictures["a." + extension] = contentsOf(folder.path("a." + extension));
+    }
+    OIIO::geterror();
+  }
+  EXPECT_GE(pictures.size(), 9U);
+  // Radiance: 16 runs of 127 bytes for each of four bytes of a pixel
+  const auto plane = [](char value) { return repeated(std::string("\xff") + value, 16); };
+  const std::string line = std::string("\2\2", 2) + most(2032, 2) + repeated(plane(char(0x80)), 3) + plane(char(0x81));
+  pictures["runs.hdr"] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 2032\n" + repeated(line, 64);
+  // Targa: runs of 128 pixels of a colour map of four bytes an entry
+  const std::string head = std::string("\0\1\x09\0\0\1\0\x20", 8) + u16(0) + u16(0) + u16(2048) + u16(64);
+  pictures["mapped.tga"] =
+    head + std::string("\x08\x08\x80\x80\x80\xff", 6) + repeated(std::string("\xff\0", 2), 16 * 64);
+  // SGI: all rows of all channels are one
+  std::string sgi = std::string("\x01\xda\x01\x01", 4) + most(3, 2) + most(2032, 2) + most(64, 2) + most(3, 2);
+  sgi.resize(512);
+  const std::size_t rows = 64 * std::size_t(3);
+  sgi += repeated(most(std::uint32_t(512 + 8 * rows), 4), rows) + repeated(most(33, 4), rows);
+  pictures["one.rgb"] = sgi + repeated("\x7f\x80", 16) + std::string(1, '\0');
+  for (const auto& [name, bytes] : pictures)
+  {
+    EXPECT_EQ(problemOf(name, bytes), "") << name;
+    dgtk::writeFile(folder.path(name), bytes);
+    std::string problem;
+    EXPECT_TRUE(dgtk::decodeRadiance(folder.path(name), problem)) << name << ": " << problem;
+  }
+  // one bit a pixel, of which deflate makes very little, and each an entry of a palette
+  const std::string path = folder.path("bits.png");
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  png_structp write = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(write);
+  png_init_io(write, file);
+  png_set_IHDR(write, info, 2048, 1024, 1, PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+    PNG_FILTER_TYPE_DEFAULT);
+  const png_color colors[] = { { 1, 2, 3 }, { 4, 5, 6 } };
+  png_set_PLTE(write, info, colors, 2);
+  png_write_info(write, info);
+  const std::vector<png_byte> bits(256, 0);
+  for (int y = 0; y < 1024; ++y)
+  {
+    png_write_row(write, bits.data());
+  }
+  png_write_end(write, info);
+  png_destroy_write_struct(&write, &info);
+  std::fclose(file);
+  EXPECT_EQ(problemOf("bits.png", contentsOf(path)), "");
+  std::string problem;
+  EXPECT_TRUE(dgtk::decodeRadiance(path, problem)) << problem;
+}
+
+TEST(Pictures, RunsOfTheOldKindAreSaidNotToBeRead)
+{
+  const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 64\n";
+  EXPECT_EQ(problemOf("a.hdr", head + repeated("\x80\x80\x80\x81\1\1\1\x3f", 2)),
+    "is packed as Radiance files once were, which is not read");
+  EXPECT_EQ(problemOf("a.hdr", head + repeated("\x80\x80\x80\x81", 100)), "is cut short");
 }
 
 TEST(Pictures, OnesCutShortAreSaidToBeInTheSameWords)

@@ -454,6 +454,39 @@ TEST(TextureFile, PicturesOfLightAreTurnedAsTheyAreMeant)
   }
 }
 
+TEST(TextureFile, ColoursOfLightAreItsCodesAndDataAreAsTheyAre)
+{
+  const TemporaryFolder folder;
+  // two pixels of red, green, blue and alpha, which multiplies them in the file
+  const float values[] = { 0.5F, 0.25F, 0, 1, 0.25F, 2, 0.125F, 0.5F };
+  for (const std::string name : { "a.exr", "a.tif" })
+  {
+    const auto output = OIIO::ImageOutput::create(folder.path(name));
+    ASSERT_TRUE(output->open(folder.path(name), OIIO::ImageSpec(2, 1, 4, OIIO::TypeDesc::FLOAT)));
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, values) && output->close());
+    std::string problem;
+    dgtk::TextureStore store(64); // both uses
+    const auto color = decodeTexture(folder.path(name), problem, &store);
+    ASSERT_TRUE(color) << problem;
+    EXPECT_THAT(color->rgba, testing::ElementsAre(188, 137, 0, 255, 188, 255, 137, 128)) << name;
+    const auto data = decodeTexture(folder.path(name), problem, &store, dgtk::TextureUse::Data);
+    ASSERT_TRUE(data) << problem;
+    EXPECT_THAT(data->rgba, testing::ElementsAre(128, 64, 0, 255, 128, 255, 64, 128)) << name;
+    dgtk::TextureStore small(15);
+    EXPECT_TRUE(decodeTexture(folder.path(name), problem, &small));
+    EXPECT_THROW(decodeTexture(folder.path(name), problem, &small, dgtk::TextureUse::Data), dgtk::MachineError);
+  }
+  writeFile(folder.path("a.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 1 +X 1\n\x80\x80\x80\x81");
+  std::string problem;
+  const auto color = decodeTexture(folder.path("a.hdr"), problem);
+  ASSERT_TRUE(color) << problem;
+  EXPECT_EQ(int(color->rgba.at(0)), 188) << "1 at an exposure of 2";
+  writeFile(folder.path("a.ppm"), "P6 1 1 255\n\x64\x64\x64");
+  dgtk::TextureStore one(4);
+  const auto code = decodeTexture(folder.path("a.ppm"), problem, &one);
+  EXPECT_EQ(code, decodeTexture(folder.path("a.ppm"), problem, &one, dgtk::TextureUse::Data)) << "both uses are one";
+}
+
 TEST(TextureFile, DataWindowsStandInTheirDisplayWindow)
 {
   struct Row

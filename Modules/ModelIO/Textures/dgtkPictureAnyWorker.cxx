@@ -3,6 +3,7 @@
 // of its own, so that an assertion, an endless loop or a flood of memory in a decoder ends here.
 #include "dgtkPictureEnd.h"
 #include "dgtkPictureServer.h"
+#include "dgtkPortableMath.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -16,6 +17,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sys/mman.h>
@@ -33,11 +35,10 @@ std::uint64_t mostExpansion(const std::string& format)
     std::uint64_t expansion;
   };
   constexpr Row rows[] = {
-    { "hdr", 64 },    // a run of 127 bytes takes two; four bytes are a pixel
-    { "sgi", 64 },    // a run of 127 bytes takes two
-    { "targa", 128 }, // a run of 128 pixels of four bytes takes five
+    { "hdr", 191 },   // a run of 127 bytes takes two; of four bytes a pixel's three floats are made
+    { "targa", 256 }, // a run of 128 pixels takes two, each an entry of four bytes of the colour map
     { "pnm", 8 },     // a bit a pixel
-    { "png", 1100 },  // deflate: 1032
+    { "png", 35200 }, // deflate: 1032; a bit is an entry of four bytes of the palette
   };
   for (const Row& row : rows)
   {
@@ -61,7 +62,7 @@ std::string inWords(const std::string& said)
   }
   for (const char* const end : { "hit end of file", "Hit end of file", "early end of file", "Unexpected end of file",
          "could only read", "Premature end of JPEG file", "premature end of data", "GIF read error at position",
-         "bytes, expected", "Stream too short", "inconsistent with stream length", "IO error during reading of" })
+         "bytes, expected", "Read error reading pixels on scanline", "Stream too short", "inconsistent with stream length", "IO error during reading of" })
   {
     if (says(end))
     {
@@ -73,6 +74,29 @@ std::string inWords(const std::string& said)
     return "is damaged";
   }
   return said.substr(0, said.find('\n'));
+}
+
+/// Of a Radiance file that could not be read: whether its pixels are packed in the old way, in which (1, 1, 1, n)
+/// stands for more of the pixel before it.
+bool hasOldRuns(const Request& request, int file)
+{
+  const Mapping memory(file, request.fileBytes, PROT_READ);
+  const auto* const bytes = static_cast<const std::uint8_t*>(memory.data());
+  const std::string_view text(static_cast<const char*>(memory.data()), memory.size());
+  const std::size_t header = text.rfind("#?", 0) == 0 ? text.find("\n\n") : std::string_view::npos;
+  const std::size_t end = header == std::string_view::npos ? header : text.find('\n', header + 2);
+  if (end == std::string_view::npos || text.substr(end + 1, 2) == "\2\2")
+  {
+    return false;
+  }
+  for (std::size_t at = end + 1; at + 4 <= memory.size(); at += 4)
+  {
+    if (bytes[at] == 1 && bytes[at + 1] == 1 && bytes[at + 2] == 1)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool lacksItsEnd(const Request& request, int file)
@@ -139,6 +163,25 @@ std::unique_ptr<OIIO::ImageInput> open(const Request& request, const std::string
   return input;
 }
 
+/// Light as codes of 8 bits; alpha, the last of an even number of channels, stays as it is.
+void encode(
+  const float* light, std::size_t count, std::size_t channels, bool multiplied, float factor, std::uint8_t* to)
+{
+  const auto code = [](float value) { return static_cast<std::uint8_t>(value * 255 + 0.5F); };
+  const auto within = [](float value) { return value > 0 ? std::min(value, 1.0F) : 0.0F; }; // not a number: 0
+  const bool hasAlpha = channels % 2 == 0;
+  for (const std::uint8_t* const end = to + count * channels; to != end; to += channels, light += channels)
+  {
+    const float alpha = hasAlpha ? within(light[channels - 1]) : 1;
+    const float scale = multiplied && alpha > 0 ? factor / alpha : factor;
+    for (std::size_t i = 0; i + (hasAlpha ? 1 : 0) < channels; ++i)
+    {
+      to[i] = code(dgtk::portable::encodedFromLinear(within(light[i] * scale)));
+    }
+    to[channels - 1] = hasAlpha ? code(alpha) : to[channels - 1];
+  }
+}
+
 /// Colours as they are without their alpha, which some files have multiplied them by.
 void divideByAlpha(std::uint8_t* pixels, std::size_t count, std::size_t channels)
 {
@@ -156,7 +199,7 @@ void divideByAlpha(std::uint8_t* pixels, std::size_t count, std::size_t channels
 bool isMultiplied(const OIIO::ImageInput& input, const Request& request, const Answer& answer)
 {
   const std::string format = input.format_name();
-  return request.values == Values::Bytes && (format == "tiff" || format == "openexr") &&
+  return request.values != Values::Floats && (format == "tiff" || format == "openexr") &&
          (answer.channels == 2 || answer.channels == 4) && input.spec().alpha_channel == answer.channels - 1 &&
          input.spec().get_int_attribute("oiio:UnassociatedAlpha") == 0;
 }
@@ -278,19 +321,21 @@ void decode(const Request& request, int file, int memory, Answer& answer)
     return;
   }
   const OIIO::ImageSpec& spec = input->spec();
-  if (!admit(request, spec.width, spec.depth > 1 ? 0 : spec.height, spec.nchannels, spec.pixel_bytes(true),
+  const std::string extension = request.extension;
+  answer.linear = extension == "hdr" || extension == "exr" || spec.format.is_floating_point() ? 1 : 0;
+  const bool encodes = request.values == Values::Codes && answer.linear != 0; // from floats
+  const std::uint64_t fileBytes = std::max<std::uint64_t>(spec.pixel_bytes(true), encodes ? 4 * spec.nchannels : 0);
+  if (!admit(request, spec.width, spec.depth > 1 ? 0 : spec.height, spec.nchannels, fileBytes,
         mostExpansion(input->format_name()), answer))
   {
     return;
   }
-  const std::string extension = request.extension;
-  answer.linear = extension == "hdr" || extension == "exr" || spec.format.is_floating_point() ? 1 : 0;
   const Placing placing = placingOf(*input, path);
   const bool moves = placing.moves(spec);
   const std::size_t pixelBytes = std::size_t(answer.channels) * (request.values == Values::Floats ? sizeof(float) : 1);
   const std::uint64_t area = std::uint64_t(spec.width) * std::uint64_t(spec.height);
   const std::int64_t shown = std::max<std::int64_t>(1, std::int64_t(placing.width) * placing.height);
-  const std::uint64_t nativeBytes = (spec.pixel_bytes(true) + pixelBytes) * (1 + area / std::uint64_t(shown));
+  const std::uint64_t nativeBytes = (fileBytes + pixelBytes) * (1 + area / std::uint64_t(shown));
   if (moves && !admit(request, placing.width, placing.height, spec.nchannels, nativeBytes, 0, answer))
   {
     return;
@@ -299,17 +344,25 @@ void decode(const Request& request, int file, int memory, Answer& answer)
   {
     const PixelMemory pixels(request, answer, memory);
     std::vector<std::uint8_t> asInFile(moves ? area * pixelBytes : 0);
-    const auto type = request.values == Values::Floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-    if (!input->read_image(0, 0, 0, answer.channels, type, moves ? static_cast<void*>(asInFile.data()) : pixels.data()))
+    void* const placed = moves ? static_cast<void*>(asInFile.data()) : pixels.data();
+    std::vector<float> light(encodes ? area * std::size_t(answer.channels) : 0);
+    const auto type = encodes || request.values == Values::Floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+    const bool isRead =
+      input->read_image(0, 0, 0, answer.channels, type, encodes ? static_cast<void*>(light.data()) : placed);
+    const std::string said = input->geterror();
+    if (const std::string words = inWords(said); !isRead || words == cutShort) // of some formats it fills the rest
     {
-      const std::string said = input->geterror();
-      refuse(answer, said.empty() ? cutShort : inWords(said)); // the decoder of PNM has no word for it
+      const bool isCut = said.empty() || words == cutShort; // the decoder of PNM has no word for it
+      refuse(answer, isCut && hasOldRuns(request, file) ? "is packed as Radiance files once were, which is not read"
+                     : isCut                            ? cutShort
+                                                        : words);
       return;
     }
-    if (const std::string words = inWords(input->geterror()); words == cutShort) // of some formats it fills the rest
+    const bool multiplied = isMultiplied(*input, request, answer);
+    if (encodes)
     {
-      refuse(answer, words);
-      return;
+      encode(light.data(), area, std::size_t(answer.channels), multiplied, placing.factor,
+        static_cast<std::uint8_t*>(placed));
     }
     if (moves)
     {
@@ -321,7 +374,7 @@ void decode(const Request& request, int file, int memory, Answer& answer)
       auto* const light = static_cast<float*>(pixels.data());
       std::transform(light, light + pixels.size() / sizeof(float), light, [&](float v) { return v * placing.factor; });
     }
-    if (isMultiplied(*input, request, answer))
+    if (multiplied && !encodes)
     {
       divideByAlpha(static_cast<std::uint8_t*>(pixels.data()), std::size_t(answer.width) * std::size_t(answer.height),
         std::size_t(answer.channels));

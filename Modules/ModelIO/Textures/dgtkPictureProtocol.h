@@ -21,8 +21,9 @@ enum class Step : std::uint32_t
 
 enum class Values : std::uint32_t
 {
-  Bytes, ///< 8 bits a channel, sRGB, at most 4 channels
-  Floats ///< 32-bit floats, at most 3 channels
+  Bytes,  ///< 8 bits a channel, at most 4 channels, values as in the file
+  Codes,  ///< the same, but light becomes its sRGB codes; what is brighter than white is white
+  Floats, ///< 32-bit floats, at most 3 channels
 };
 
 struct Request
@@ -48,7 +49,7 @@ struct Answer
   std::int32_t width = 0;
   std::int32_t height = 0;
   std::int32_t channels = 0;
-  std::int32_t linear = 0;  ///< floats that are light as they are, not sRGB
+  std::int32_t linear = 0;  ///< its values are light as they are, not sRGB
   std::int32_t cramped = 0; ///< decoding may want more memory than the machine's limit leaves
   char problem[400] = {};
 };

@@ -19,7 +19,7 @@ namespace
 {
 using namespace dgtk::picture;
 
-constexpr std::uint64_t pngExpansion = 1100; // deflate: 1032
+constexpr std::uint64_t mostDeflated = 1100; // 1032
 
 /// A picture in memory whose decoder fails by longjmp(). Whatever it fails or warns of is left to others, so that there
 /// is one judge of what is damaged.
@@ -79,13 +79,14 @@ public:
     png_set_user_limits(this->Read, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_read_fn(this->Read, this, &Png::read);
     png_read_info(this->Read, this->Head);
+    const int bits = png_get_bit_depth(this->Read, this->Head) * png_get_channels(this->Read, this->Head);
     png_set_expand(this->Read);
     this->Passes = png_set_interlace_handling(this->Read);
     png_read_update_info(this->Read, this->Head);
     this->width = png_get_image_width(this->Read, this->Head);
     this->height = png_get_image_height(this->Read, this->Head);
     this->channels = png_get_channels(this->Read, this->Head);
-    this->expansion = pngExpansion;
+    this->expansion = mostDeflated * 8 * std::uint64_t(this->channels) / std::uint64_t(bits);
     return png_get_bit_depth(this->Read, this->Head) == 8;
   }
 
@@ -258,7 +259,7 @@ void decodePcx(const Mapping& file, const Request& request, int memory, Answer& 
 void decode(const Request& request, int file, int memory, Answer& answer)
 {
   answer.status = Status::Elsewhere;
-  if (request.values != Values::Bytes)
+  if (request.values == Values::Floats)
   {
     return;
   }

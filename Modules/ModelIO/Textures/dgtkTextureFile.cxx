@@ -8,6 +8,7 @@
 #include "dgtkTexturePixels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <new>
@@ -43,11 +44,17 @@ std::string inMebibytes(std::uint64_t bytes) { return std::to_string((bytes + me
 struct TextureStore::Entry
 {
   std::mutex work; ///< what throws is done again by who asks next
+  struct Decoded
+  {
+    bool isDone = false;
+    std::string problem;
+    std::shared_ptr<const Image> image;
+  };
   bool isMeasured = false;
-  bool isDecoded = false;
   bool isPicture = false;
   std::string problem;
-  std::shared_ptr<const Image> image;
+  picture::Answer size;
+  std::array<Decoded, 2> uses;
 };
 
 TextureStore::TextureStore()
@@ -125,9 +132,8 @@ std::shared_ptr<RadianceImage> toLight(const picture::Answer& size, const float*
 }
 
 bool takeBytes(const picture::Source& source, picture::Values values, std::uint64_t pixelBytes, TextureStore& store,
-  std::string& problem)
+  picture::Answer& size, std::string& problem)
 {
-  picture::Answer size;
   problem.clear();
   if (!picture::measure(source, values, size, problem))
   {
@@ -184,14 +190,15 @@ void settleAlpha(Image& image, AlphaRule rule)
   image.hasAlpha = least < 255;
 }
 
-bool takeTexels(const picture::Source& source, TextureStore& store, std::string& problem)
+bool takeTexels(const picture::Source& source, TextureStore& store, picture::Answer& size, std::string& problem)
 {
-  return takeBytes(source, picture::Values::Bytes, 4, store, problem);
+  return takeBytes(source, picture::Values::Codes, 4, store, size, problem);
 }
 
-std::shared_ptr<const Image> decodeTexels(const picture::Source& source, AlphaRule rule, std::string& problem)
+std::shared_ptr<const Image> decodeTexels(
+  const picture::Source& source, TextureUse use, AlphaRule rule, std::string& problem)
 {
-  return decodePixels(source, picture::Values::Bytes, problem,
+  return decodePixels(source, use == TextureUse::Color ? picture::Values::Codes : picture::Values::Bytes, problem,
     [rule](const picture::Answer& size, const picture::Pixels& pixels)
     {
       std::shared_ptr<Image> image = spread(size, pixels.as<std::uint8_t>());
@@ -214,38 +221,49 @@ bool TextureStore::reserve(const std::string& path, std::string& problem)
   const std::lock_guard<std::mutex> lock(entry.work);
   if (!entry.isMeasured)
   {
-    entry.isPicture = takeTexels(fileSource(path), *this, entry.problem);
+    entry.isPicture = takeTexels(fileSource(path), *this, entry.size, entry.problem);
     entry.isMeasured = true;
   }
   problem = entry.problem;
   return entry.isPicture;
 }
 
-std::shared_ptr<const Image> TextureStore::decode(const std::string& path, std::string& problem)
+std::shared_ptr<const Image> TextureStore::decode(const std::string& path, TextureUse use, std::string& problem)
 {
   Entry& entry = this->entryOf(path);
   const std::lock_guard<std::mutex> lock(entry.work);
-  if (!entry.isDecoded)
+  const bool isData = use == TextureUse::Data && entry.size.linear != 0; // otherwise both uses are one
+  Entry::Decoded& decoded = entry.uses.at(isData ? 1 : 0);
+  if (!decoded.isDone)
   {
-    entry.image = decodeTexels(fileSource(path), AlphaRule::Painted, entry.problem);
-    entry.isDecoded = true;
+    if (entry.uses.at(isData ? 0 : 1).image)
+    {
+      const picture::Answer& size = entry.size;
+      this->take(
+        path, size.width, size.height, std::uint64_t(4) * std::uint64_t(size.width) * std::uint64_t(size.height));
+    }
+    decoded.image = decodeTexels(
+      fileSource(path), isData ? TextureUse::Data : TextureUse::Color, AlphaRule::Painted, decoded.problem);
+    decoded.isDone = true;
   }
-  problem = entry.problem;
-  return entry.image;
+  problem = decoded.problem;
+  return decoded.image;
 }
 
-std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem, TextureStore* store)
+std::shared_ptr<const Image> decodeTexture(
+  const std::string& path, std::string& problem, TextureStore* store, TextureUse use)
 {
   TextureStore own;
   TextureStore& used = store ? *store : own;
-  return used.reserve(path, problem) ? used.decode(path, problem) : nullptr;
+  return used.reserve(path, problem) ? used.decode(path, use, problem) : nullptr;
 }
 
 std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std::string& problem, TextureStore* store)
 {
   TextureStore own;
   const picture::Source source = fileSource(path);
-  if (!takeBytes(source, picture::Values::Floats, 3 * sizeof(float), store ? *store : own, problem))
+  picture::Answer header;
+  if (!takeBytes(source, picture::Values::Floats, 3 * sizeof(float), store ? *store : own, header, problem))
   {
     return nullptr;
   }
