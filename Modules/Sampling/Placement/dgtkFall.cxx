@@ -18,13 +18,15 @@ namespace
 {
 // Of sizes, which are about 1 in Bullet.
 constexpr double margin = 0.002;
-constexpr int calmLooks = 2;          ///< one after the other, after which a body rests
-constexpr double timeOfLook = 1.5;    ///< between two looks, in square roots of size by gravity
-constexpr double leastWeight = 0.05;  ///< what is much lighter would be pressed into what it lies on
-constexpr double contact = 0.02;      ///< distance at which bodies begin to be kept apart
-constexpr double thin = 0.01;         ///< plates are made this thick to each side
+constexpr int calmLooks = 2;         ///< one after the other, after which a body rests
+constexpr double timeOfLook = 1.5;   ///< between two looks, in square roots of size by gravity
+constexpr double leastWeight = 0.05; ///< what is much lighter would be pressed into what it lies on
+constexpr double contact = 0.02;     ///< distance at which contacts are found; most that bodies go in a step
+constexpr double touching = 0.0005;  ///< at which they are kept apart: earlier, what bounces would be slowed down first
+constexpr double thin = 0.01;        ///< plates are made this thick to each side
 constexpr double leastOfStep = 0.015; ///< way that even the thinnest may go in a step
-constexpr int mostParts = 8;
+constexpr int mostParts = 16;
+constexpr double quick = 0.5; ///< speed, in square roots of size times gravity
 constexpr double stepsOfFall =
   20; ///< a second, times the square root of size by gravity: steps to fall a half of the size
 
@@ -121,9 +123,9 @@ struct FallingBody
   std::unique_ptr<btRigidBody> body;
   Rigid3 body_from_bullet; ///< Bullet's frame has the axes of inertia; scene units
   std::vector<Rigid3> poses;
-  btTransform looked;    ///< where it was when it was last looked at
-  int calmLooks = 0;     ///< for how many looks it has hardly moved
-  double mostOfStep = 1; ///< way that it may go in a step
+  btTransform looked;          ///< where it was when it was last looked at
+  int calmLooks = 0;           ///< for how many looks it has hardly moved
+  double mostOfStep = contact; ///< way that it may go in a step
   bool in = true;
 };
 
@@ -277,6 +279,7 @@ void Fall::Impl::addFalling(const PlaceBody& it, const FallMatter& matter)
   info.m_angularDamping = 0.2;
   one->body = std::make_unique<btRigidBody>(info);
   one->body->setActivationState(DISABLE_DEACTIVATION);
+  one->body->setContactProcessingThreshold(touching);
   one->looked = info.m_startWorldTransform;
   this->world.addRigidBody(one->body.get());
   this->falling.push_back(std::move(one));
@@ -303,7 +306,12 @@ bool Fall::Impl::advance(double lowest)
 {
   // What is fast goes in smaller steps: Bullet sees what is nearer than its threshold of contact, beyond which thin
   // things would go through one another.
-  const int parts = std::clamp(int(std::ceil(this->step * this->fastest())), 1, mostParts);
+  const double fastest = this->fastest();
+  const int parts = std::clamp(int(std::ceil(this->step * fastest)), 1, mostParts);
+  // All corners of a side that comes down flat are contacts at once: one after the other they would turn what falls.
+  // What is slow does not turn much, and lies in many contacts.
+  const double isQuick = quick / contact * std::sqrt(this->settings.gravity / this->settings.size);
+  this->configuration.setConvexConvexMultipointIterations(fastest > isQuick ? 4 : 0, 2);
   for (int i = 0; i < parts; ++i)
   {
     this->world.stepSimulation(this->step / parts, 0);
