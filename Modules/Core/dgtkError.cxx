@@ -25,7 +25,7 @@ std::string inputMessage(
   {
     message += ':' + std::to_string(line);
   }
-  message += ": " + what;
+  message += (message.empty() ? "" : ": ") + what;
   if (!expected.empty() || !found.empty())
   {
     message += " (";

@@ -136,6 +136,25 @@ class Sample(Case):
         self.dgtk(*command, "0:3")
         self.assertEqual(digests(self.path("own")), whole)
 
+    def test_a_value_that_cannot_be_used_ends_the_run_and_says_where(self):
+        objects = [{"name": "a", "model": "models/quad.obj", "materials": {"*": {"shininess": {"uniform": [100, 132]}}}}]
+        scene = self.scene(objects=objects, lights=[], cameras=[])
+        command = ("sample", scene, "-o", self.path("own"), "--quiet", "--threads", "1", "--samples")
+        said = self.refused(*command, "0:99", status=3)
+        failed = int(said.rsplit(", in sample ", 1)[1])
+        self.assertIn("scene.json:", said)
+        record = load_json(self.path("own/samples.json"))
+        self.assertFalse(record["complete"])
+        self.assertEqual([s["sample"] for s in record["samples"]], list(range(failed)))
+        self.assertEqual(self.refused(*command, "0:99", status=3), said)
+        # a folder without a sample is in nobody's way
+        command = ("sample", scene, "-o", self.path("none"), "--quiet", "--samples")
+        self.refused(*command, str(failed), status=3)
+        self.assertEqual(os.listdir(self.path("none")), ["samples.json"])
+        objects[0]["materials"]["*"]["shininess"] = 100
+        self.scene(objects=objects, lights=[], cameras=[])
+        self.dgtk(*command, "0:1")
+
     def test_the_guide_s_example_is_sampled_and_rendered(self):
         with open(os.path.join(SOURCE, "Documentation/UserGuide/sampling.md"), encoding="utf-8") as file:
             example = file.read().split("```jsonc\n")[1].split("```")[0]

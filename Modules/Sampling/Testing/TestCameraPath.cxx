@@ -221,15 +221,24 @@ TEST(CameraPath, NamesThatAreMissingElsewhere)
   };
   const std::string fog = R"("fog": {"color": {"keys": [{"frame": 0, "value": {"centerOf": "cup"}}]}})";
   const std::string lookAt = R"("cameras": [{"name": "a", "eye": [9, 9, 9], "lookAt": "cup"}])";
+  const std::string visible = R"("cameras": [{"name": "a", "eye": [9, 9, 9], "lookAt": [0, 0, 0], "require":
+    {"visible": {"cup*": 0.5}, "attempts": 2}}])";
   for (const char* drawn : { R"({"integer": [0, 0]})", R"("$d")" })
   {
+    EXPECT_EQ(test::thrownBy<SampleRefused>([&] { draw(drawn, visible); }),
+      "cameras/a/require: 'cup*' has no instance in this sample");
     const std::string why = "'cup' has no instance in this sample";
     EXPECT_EQ(test::thrownBy<SampleRefused>([&] { draw(drawn, fog); }), "fog: " + why);
     EXPECT_EQ(test::thrownBy<SampleRefused>([&] { draw(drawn, lookAt); }), "cameras/a/lookAt: " + why);
   }
   for (const char* fixed : { "0", R"("$n")" })
   {
-    EXPECT_THROW(draw(fixed, lookAt), InputError) << fixed;
+    for (const std::string& one : { lookAt, visible })
+    {
+      EXPECT_THAT(test::thrownBy<InputError>([&] { draw(fixed, one); }),
+        HasSubstr("names an object whose count is 0 (expected one of which there are some, found 'cup"))
+        << fixed;
+    }
   }
 }
 

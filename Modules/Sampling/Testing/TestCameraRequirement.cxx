@@ -88,8 +88,9 @@ TEST(CameraRequirement, TheLeastOfAllThatFitThePatternCounts)
     "pane* is visible by 0.5 of 0.51 at frame 0");
   EXPECT_EQ(measured(both, camera, R"("pixels": 80, "visible": { "off": 0.25 })", "visible off"),
     "off is visible by 0 of 0.25 at frame 0");
-  EXPECT_EQ(measured(both, camera, R"("pixels": 80, "visible": { "none": 0.25 })", "visible none"),
-    "none is visible by 0 of 0.25 at frame 0");
+  EXPECT_THAT(test::thrownBy<InputError>(
+                [&] { measured(both, camera, R"("pixels": 80, "visible": { "zz*": 0.25 })", "visible zz*"); }),
+    testing::HasSubstr("require.visible names no object (expected the name of an object of the scene, found 'zz*')"));
 }
 
 TEST(CameraRequirement, APixelCountsOnceForAllSheetsOfAnObject)

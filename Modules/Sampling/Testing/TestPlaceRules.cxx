@@ -101,22 +101,75 @@ TEST(Placement, SidesInOnePlaneHideNoOverlap)
     2u);
 }
 
+TEST(Placement, WhatFallsFlatNeitherSinksInNorTurns)
+{
+  for (const double restitution : { 0.0, 0.9 })
+  {
+    PlaceScene made;
+    made.scene.fps = 200;
+    made.add("table", "table.ac");
+    made.add("brick", "brick.ac",
+      R"({ "on": "table", "region": [[0, 0], [0, 0]], "drop": { "height": 0.5, "bake": "keys", "restitution": )" +
+        std::to_string(restitution) + " } }");
+    const std::vector<PlaceOutcome> placed = made.place();
+    ASSERT_TRUE(placed[0].note.kept) << placed[0].note.why;
+    const ObjectDescription& brick = made.scene.objects[1];
+    double lowest = 1;
+    double rebound = 0;
+    for (const auto& key : brick.position.keys)
+    {
+      const double height = key.value.y() - 0.75;
+      rebound = lowest < 0.01 && key.frame < 120 ? std::max(rebound, height) : rebound;
+      lowest = std::min(lowest, height);
+    }
+    EXPECT_GT(lowest, -0.003) << restitution;
+    if (restitution == 0)
+    {
+      EXPECT_LT(std::hypot(brick.position.value.x(), brick.position.value.z()), 0.001);
+      EXPECT_GT(std::abs(brick.orientation.value.w), 0.9999);
+      EXPECT_LT(rebound, 0.005);
+    }
+    else
+    {
+      EXPECT_NEAR(rebound, 0.81 * 0.5, 0.03);
+    }
+  }
+}
+
 TEST(Placement, SetsThePositionAloneOfWhatIsPut)
 {
   const Boxes boxes;
-  const std::string cube = R"({ "name": "a", "model": "middle.obj", "position": [5, 5, 5], "orientation": { "keys":
+  const std::string cube = R"({ "name": "a", "model": "middle.obj", "orientation": { "keys":
     [[0, [0, 0, 1, 0]], [9, [1, 0, 0, 0]]] }, "place": { "in": [[-0.5, 2.5, -0.5], [0.5, 3.5, 0.5]] } })";
   SceneDescription scene = boxes.sample(cube).scene;
   EXPECT_EQ(scene.objects[1].position.value, Eigen::Vector3d(0, 3, 0));
   ASSERT_EQ(scene.objects[1].orientation.keys.size(), 2u);
   EXPECT_EQ(scene.objects[1].orientation.at(0).y, 1);
   scene = boxes
-            .sample(R"({ "name": "a", "model": "cube.obj", "position": [5, 5, 5],
+            .sample(R"({ "name": "a", "model": "cube.obj",
     "place": { "in": [[-0.5, 0, -0.5], [0.5, 1, 0.5]] } }, { "name": "below", "model": "cube.obj",
     "position": [9, 0, 0] })")
             .scene;
   ASSERT_EQ(scene.objects.size(), 3u);
   EXPECT_EQ(scene.objects[1].position.value, Eigen::Vector3d(0, 0, 0)) << "that of what says nothing";
+}
+
+TEST(Placement, IsNotSaidTwice)
+{
+  const Boxes boxes;
+  const auto refusal = [&boxes](const std::string& pose, const std::string& place)
+  {
+    return test::thrownBy<InputError>(
+      [&] { boxes.sample(R"({ "name": "a", "model": "cube.obj", )" + pose + R"(, "place": )" + place + " }"); });
+  };
+  const std::string put = R"({ "in": [[-0.5, 0, -0.5], [0.5, 1, 0.5]] })";
+  const std::string dropped = R"({ "on": "floor", "drop": {} })";
+  const std::string turns = R"("orientation": { "keys": [[0, [0, 0, 1, 0]], [9, [1, 0, 0, 0]]] })";
+  EXPECT_THAT(
+    refusal(R"("position": [5, 5, 5])", put), testing::HasSubstr("objects[1].position stands beside a place"));
+  EXPECT_THAT(refusal(R"("position": { "uniform": [0, 1] })", dropped), testing::HasSubstr("stands beside a place"));
+  EXPECT_THAT(refusal(turns, dropped), testing::HasSubstr("objects[1].orientation has key frames beside a place"));
+  EXPECT_EQ(refusal(turns, put), "");
 }
 
 TEST(Placement, AThinModelMayBeScaledToAThickOne)

@@ -39,6 +39,8 @@ public:
   JsonNode world(std::vector<Rule>& rules);
   /// Whether a name or pattern fits instances of an object that a sample may have without, its count being random.
   bool mayLack(const std::string& pattern) const;
+  /// Whether it fits an object whose count is 0 in this sample.
+  bool isOfNone(const std::string& pattern) const;
   std::size_t cameras() const { return this->CameraList == nullptr ? 0 : this->CameraList->children.size(); }
   /// A camera of an attempt; its rules by their keys.
   JsonNode camera(std::size_t index, std::uint32_t attempt, std::map<std::string, Rule>& rules);
@@ -79,6 +81,7 @@ private:
   JsonNode members(const JsonNode& node, const At& at, const std::vector<std::string>& without);
   void addItems(const JsonNode& list, const std::string& key, std::vector<Rule>& rules, JsonNode& root);
   void addObjects(const JsonNode& item, const At& at, std::vector<Rule>& rules, JsonNode& list);
+  void refusePose(const JsonNode& item, const At& at, const JsonNode& place) const;
   std::string nameOf(const JsonNode& item, const At& at) const;
   std::size_t countOf(const std::string& name);
   static std::string parentOf(const JsonNode& item);

@@ -85,6 +85,22 @@ std::size_t SampleExpansion::countOf(const std::string& name)
   return count;
 }
 
+/// A place sets the position, and a fall the key frames of the orientation, which begins as it is said.
+void SampleExpansion::refusePose(const JsonNode& item, const At& at, const JsonNode& place) const
+{
+  if (const JsonNode* const position = item.find("position"))
+  {
+    this->fail(
+      *position, at.below("position", "position"), "stands beside a place", "one of position and place", "both");
+  }
+  const JsonNode* const orientation = item.find("orientation");
+  if (orientation != nullptr && orientation->find("keys") != nullptr && place.find("drop") != nullptr)
+  {
+    this->fail(*orientation, at.below("orientation", "orientation"), "has key frames beside a place with drop",
+      "the orientation in which it begins to fall", "key frames");
+  }
+}
+
 void SampleExpansion::addObjects(const JsonNode& item, const At& at, std::vector<Rule>& rules, JsonNode& list)
 {
   const std::string name = this->nameOf(item, at);
@@ -121,6 +137,7 @@ void SampleExpansion::addObjects(const JsonNode& item, const At& at, std::vector
       {
         this->fail(*rule, ruleAt, "is of an object without a name", "\"name\": a text");
       }
+      this->refusePose(item, place, *rule);
       rules.push_back(
         { list.children.size(), ruleAt.path, this->documentOf(this->value(*rule, "place", ruleAt), ruleAt) });
     }
@@ -232,6 +249,12 @@ bool SampleExpansion::mayLack(const std::string& pattern) const
   const std::string instance = hash == std::string::npos ? "#1" : pattern.substr(hash);
   return std::any_of(this->Varying.begin(), this->Varying.end(),
     [&](const std::string& name) { return !objectsLike({ name + instance }, pattern).empty(); });
+}
+
+bool SampleExpansion::isOfNone(const std::string& pattern) const
+{
+  return std::any_of(this->Counts.begin(), this->Counts.end(),
+    [&](const auto& one) { return one.second.second == 0 && !objectsLike({ one.first }, pattern).empty(); });
 }
 
 std::string SampleExpansion::pathOfCamera(std::size_t index) const

@@ -41,6 +41,13 @@ void SampleMaker::fail(const JsonNode& node, const std::string& path, const std:
   throw InputError(this->Scene.document().file, node.line, path + ' ' + what, expected, found);
 }
 
+void SampleMaker::failName(const JsonNode& node, const std::string& path, const std::string& name) const
+{
+  const bool isOfNone = this->Expansion.isOfNone(name);
+  this->fail(node, path, isOfNone ? "names an object whose count is 0" : "names no object",
+    isOfNone ? "one of which there are some" : "the name of an object of the scene", quoted(name));
+}
+
 std::string SampleMaker::pathOf(const std::string& shown) const
 {
   const std::size_t dot = shown.find("].");
@@ -107,10 +114,13 @@ bool SampleMaker::settle(JsonNode& node, const std::string& shown, const std::se
       {
         throw SampleRefused(this->pathOf(path), absent, 1);
       }
-      if (found.empty() || (point.onSurface && found.size() > 1))
+      if (found.empty())
       {
-        this->fail(at, path, found.empty() ? "names no object" : "names more than one object",
-          "the name of an object of the scene", quoted(point.object));
+        this->failName(at, path, point.object);
+      }
+      if (point.onSurface && found.size() > 1)
+      {
+        this->fail(at, path, "names more than one object", "the name of an object of the scene", quoted(point.object));
       }
       const bool waits =
         std::any_of(found.begin(), found.end(), [&](std::size_t object) { return waiting.count(object) != 0; });
@@ -338,8 +348,23 @@ bool SampleMaker::makeCamera(std::size_t index, std::uint32_t attempt, JsonNode&
   frames.insert(frames.end(), this->KeyFrames.begin(), this->KeyFrames.end());
   std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  const CameraFit fit =
-    fitOf(CameraRequirement::read(require->second.rule), alone.cameras.front(), frames, this->world());
+  const CameraRequirement wanted = CameraRequirement::read(require->second.rule);
+  for (const CameraRequirement::Visible& one : wanted.visible)
+  {
+    if (!objectsLike(objectNamesOf(this->world().scene()), one.pattern).empty())
+    {
+      continue;
+    }
+    const std::string absent = this->whyAbsent(one.pattern);
+    if (!absent.empty())
+    {
+      note.why = absent;
+      return false;
+    }
+    const JsonNode& visible = *require->second.rule.root.find("visible");
+    this->failName(*visible.find(one.pattern), shown + ".require.visible", one.pattern);
+  }
+  const CameraFit fit = fitOf(wanted, alone.cameras.front(), frames, this->world());
   note.measured = fit.measured;
   note.why = fit.why;
   return fit.fits;

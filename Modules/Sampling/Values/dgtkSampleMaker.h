@@ -30,6 +30,8 @@ private:
 
   [[noreturn]] void fail(const JsonNode& node, const std::string& path, const std::string& what,
     const std::string& expected, const std::string& found) const;
+  /// Of a name or pattern that no object has.
+  [[noreturn]] void failName(const JsonNode& node, const std::string& path, const std::string& name) const;
   void checkWanted() const;
   /// The path of a rule or value that errors call "cameras[0].lookAt.keys": "cameras/left/lookAt".
   std::string pathOf(const std::string& shown) const;

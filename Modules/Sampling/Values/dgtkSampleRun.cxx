@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <mutex>
 #include <vector>
 
@@ -47,6 +48,13 @@ Json recordIn(const Folder& folder)
   }
   Json record = Json::parse(readFile(folder.fileAt(recordName)), nullptr, false);
   return record.is_object() && record.contains("samples") && record.contains("scene_sha256") ? record : Json();
+}
+
+/// Whether a record is that of the run that begins, which did not end.
+bool isOfSameRun(Json record, const Json& begun)
+{
+  record["samples"] = begun["samples"];
+  return record == begun;
 }
 
 /// Throws unless the folder is free, may be made so, or holds what an interrupted run of the same samples has left:
@@ -85,11 +93,13 @@ void clearFolder(const SampleRequest& request, const Json& begun)
                               " but no record of samples",
       false);
   }
-  if (record == begun) // each sample is written again, or its file removed
+  if (isOfSameRun(record, begun)) // each sample is written again, or its file removed
   {
     return;
   }
-  if (!request.replace)
+  const bool isOfNone = samples == std::vector<std::string>{ recordName } && !record["samples"].is_null() &&
+                        record["samples"].empty(); // its first sample failed
+  if (!request.replace && !isOfNone)
   {
     throw SampleFolderError(request.folder + " holds samples already", true);
   }
@@ -147,13 +157,18 @@ public:
     const Json begun = this->recordOf(false);
     clearFolder(this->Request, begun);
     this->write(begun);
-    ThreadPool(this->Request.threads)
-      .parallelFor(static_cast<int>(this->Records.size()), [this](int i) { this->one(i); });
-    this->Result.interrupted = this->isCancelled();
-    if (!this->Result.interrupted)
+    try
     {
-      this->write(this->recordOf(true));
+      ThreadPool(this->Request.threads)
+        .parallelFor(static_cast<int>(this->Records.size()), [this](int i) { this->one(i); });
     }
+    catch (...)
+    {
+      this->write(this->recordOf(false));
+      throw;
+    }
+    this->Result.interrupted = this->isCancelled();
+    this->write(this->recordOf(!this->Result.interrupted));
     return this->Result;
   }
 
@@ -191,9 +206,14 @@ private:
       record["refused"] = { { "path", utf8FromBytes(error.path()) }, { "why", utf8FromBytes(error.why()) },
         { "attempts", error.attempts() } };
     }
-    catch (...)
+    catch (const InputError& error)
     {
       this->Failed = true; // of those that began, the lowest sample's is told
+      throw Error(error.code(), std::string(error.what()) + ", in sample " + std::to_string(number));
+    }
+    catch (...)
+    {
+      this->Failed = true;
       throw;
     }
     const std::lock_guard<std::mutex> guard(this->Lock);
@@ -224,7 +244,9 @@ private:
       { "scene", utf8FromBytes(fs::path(this->Request.scene).filename().string()) }, { "scene_sha256", scene.sha256() },
       { "seed", this->Source.seed() }, { "first", this->Request.first }, { "last", this->Request.last } };
     record["inputs"] = whole ? inputsOf(scene) : Json::array();
-    record["samples"] = whole ? Json(this->Records) : Json::array();
+    record["samples"] = Json::array(); // without those that were not drawn
+    std::copy_if(this->Records.begin(), this->Records.end(), std::back_inserter(record["samples"]),
+      [](const Json& sample) { return !sample.is_null(); });
     return record;
   }
 
