@@ -218,8 +218,8 @@ TEST(StageTables, EveryKeyOfMaterials)
     { "\"metallicRoughnessMap" + picture, "0.2 0.2 0.2 | 1 0 0 | 0.5 0.5 0.5 | 0 0 0 | 10 1 1 | 0 -1 -1 1 -1 -1" },
     { "\"emissionMap" + picture, "0.2 0.2 0.2 | 1 0 0 | 0.5 0.5 0.5 | 0 0 0 | 10 1 1 | 0 -1 -1 -1 1 -1" },
     { "\"occlusionMap" + picture, "0.2 0.2 0.2 | 1 0 0 | 0.5 0.5 0.5 | 0 0 0 | 10 1 1 | 0 -1 -1 -1 -1 1" },
-    { "\"texture" + picture + ", \"bump" + picture,
-      "0.2 0.2 0.2 | 1 0 0 | 0.5 0.5 0.5 | 0 0 0 | 10 1 1 | 1 -1 1 -1 -1 -1" },
+    { "\"texture" + picture + ", \"bump" + picture, // of colours and of data, which files of light tell apart
+      "0.2 0.2 0.2 | 1 0 0 | 0.5 0.5 0.5 | 0 0 0 | 10 1 1 | 1 -1 2 -1 -1 -1" },
     { R"("metallic": 0.5)", "0.2 0.2 0.2 | 1 0 0 | 0.5 0.5 0.5 | 0 0 0 | 10 1 1 | 0 -1 -1 -1 -1 -1 | 0.5 1 1" },
     { R"("roughness": 0.5)", "0.2 0.2 0.2 | 1 0 0 | 0.5 0.5 0.5 | 0 0 0 | 10 1 1 | 0 -1 -1 -1 -1 -1 | 0 0.5 1" },
   };
