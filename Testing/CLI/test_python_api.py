@@ -365,7 +365,7 @@ except KeyboardInterrupt:
         self.assertEqual((done.returncode, done.stdout), (0, "interrupted True False\n"), done.stderr)
 
     def test_a_list_of_frames_is_those(self):
-        for frames, expected in (([0, 2], [0, 2]), ((0, 2), [0, 1, 2]), (numpy.array([1, 2]), [1, 2]), ([1], [1]), (range(0, 3, 2), [0, 2])):
+        for frames, expected in (([0, 2], [0, 2]), ((0, 2), [0, 1, 2]), (numpy.array([1, 2]), [1, 2]), ([1], [1]), ((1,), [1]), (range(0, 3, 2), [0, 2])):
             manifest = dgtk.generate(DEMO, self.path("out"), layers="calibration", cameras="left", frames=frames, size=(32, 24), replace=True)
             self.assertEqual([file["frame"] for file in manifest["files"] if file.get("layer") == "calibration"], expected)
 
@@ -382,6 +382,8 @@ except KeyboardInterrupt:
                 ({"frames": range(2, -1, -1)}, ValueError, "frames: expected"),
                 ({"frames": [0, 1, 3]}, ValueError, "frames: expected .* found .0, 1, 3."),
                 ({"frames": []}, ValueError, "frames: expected"),
+                ({"frames": [0, 1, 2000000000]}, ValueError, "frames: expected"),
+                ({"frames": ()}, ValueError, "frames: expected"),
                 ({"frames": (0, 1, 1, 1)}, ValueError, "frames: expected"),
                 ({"frames": [0, "1"]}, ValueError, "frames: expected"),
                 ({"size": (0, 5)}, ValueError, "size: expected"),

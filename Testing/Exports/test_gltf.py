@@ -222,8 +222,12 @@ class Gltf(datasets.ExportCase):
             again = asset.json["nodes"][0]["translation"]
             said = self.planted(dataset, folder, "scene.gltf", lambda data: data.replace(str(again[0]).encode(), str(again[0] + 0.01).encode(), 1))
             self.assertIn("layer", said)
-        near, _, asset, _ = self.exported(datasets.stereo(self.path("near")))
-        self.assertNotIn("translation", asset.json["nodes"][0])
+        self.assertNotIn("translation", self.exported(datasets.stereo(self.path("near")))[2].json["nodes"][0])
+        near = datasets.stereo(self.path("one"))
+        scene = load_json(near)  # and one that is far off takes nothing from the others
+        scene["objects"].append({**scene["objects"][0], "name": "far", "position": [2e7, 0, 0]})
+        self.write(near, json.dumps(scene))
+        self.assertNotIn("translation", self.exported(near)[2].json["nodes"][0])
 
     def test_dgtk_reads_it_back(self):
         """The exported scene, drawn by DGTk through the scene's cameras, has the dataset's depth."""

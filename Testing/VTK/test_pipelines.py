@@ -98,6 +98,25 @@ class Pipelines(unittest.TestCase):
                     found = dgtk.truth(renderer, "objects", size=(40, 30), unsupported="skip")["objects"]
                 numpy.testing.assert_array_equal(before, found)
 
+        # One that works again is none, whatever code VTK keeps.
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "ball.stl")
+            writer = vtk.vtkSTLWriter()
+            ball = vtk.vtkSphereSource()
+            writer.SetInputConnection(ball.GetOutputPort())
+            writer.SetFileName(path)
+            writer.Write()
+            again = vtk.vtkSTLReader()
+            again.SetFileName("/nowhere/part")
+            again.Update()
+            again.SetFileName(path)
+            mapper, actor, renderer = vtk.vtkPolyDataMapper(), vtk.vtkActor(), vtk.vtkRenderer()
+            mapper.SetInputConnection(again.GetOutputPort())
+            actor.SetMapper(mapper)
+            renderer.AddActor(actor)
+            self.assertGreater(dgtk.truth(renderer, "objects", size=(40, 30))["objects"].max(), 0)
+            self.assertNotEqual(again.GetErrorCode(), 0)
+
     def test_it_sees_what_actors_do_not_know_of(self):
         """Blocks and their colours, the shape of a glyph, the picture of a texture, a plane: each change is in the next output."""
         blocks, glyphs = scenes.blocks(), scenes.glyph_mapper()

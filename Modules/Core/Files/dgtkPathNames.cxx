@@ -54,7 +54,8 @@ std::string PathNames::relative(const std::string& path, const std::string& fold
 std::string tidied(const std::string& path)
 {
   const std::string out = "/..";
-  const std::size_t last = path.rfind(out + '/');
+  const bool ends = path.size() > out.size() && path.compare(path.size() - out.size(), out.size(), out) == 0;
+  const std::size_t last = ends ? path.size() - out.size() : path.rfind(out + '/');
   if (last == std::string::npos)
   {
     return path;

@@ -247,10 +247,23 @@ void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece, double 
 
 namespace
 {
-/// Which step of the pipeline that ends here has an error code; null for none. Not all readers leave one.
+/// Whether a step gave nothing; VTK keeps error codes though a step works again.
+bool gaveNothing(vtkAlgorithm& step)
+{
+  vtkDataObject* const data = step.GetNumberOfOutputPorts() > 0 ? step.GetOutputDataObject(0) : nullptr;
+  if (vtkCompositeDataSet* const blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    return blocks->GetNumberOfPoints() == 0;
+  }
+  vtkDataSet* const set = vtkDataSet::SafeDownCast(data);
+  return data == nullptr || (set != nullptr && set->GetNumberOfPoints() == 0);
+}
+
+/// Which step of the pipeline that ends here has an error code and gave nothing; null for none. Not all readers leave
+/// one.
 vtkAlgorithm* failedStep(vtkAlgorithm& step, std::set<vtkAlgorithm*>& seen)
 {
-  if (step.GetErrorCode() != vtkErrorCode::NoError)
+  if (step.GetErrorCode() != vtkErrorCode::NoError && gaveNothing(step))
   {
     return &step;
   }

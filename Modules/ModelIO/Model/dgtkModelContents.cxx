@@ -172,11 +172,12 @@ private:
   std::vector<TextureUse> uses() const
   {
     std::vector<TextureUse> uses(this->Contents.pictures.size(), TextureUse::Color);
-    const auto set = [&uses](int texture, TextureUse use)
+    const auto set = [&](int texture, TextureUse use)
     {
       if (texture >= 0)
       {
-        uses.at(std::size_t(texture)) = use;
+        const std::int32_t same = this->Contents.pictures.at(std::size_t(texture)).same;
+        uses.at(std::size_t(same == ModelPicture::own ? texture : same)) = use;
       }
     };
     for (const TextureUse use : { TextureUse::Data, TextureUse::Color })

@@ -62,7 +62,8 @@ std::string inWords(const std::string& said)
   }
   for (const char* const end : { "hit end of file", "Hit end of file", "early end of file", "Unexpected end of file",
          "could only read", "Premature end of JPEG file", "premature end of data", "GIF read error at position",
-         "bytes, expected", "Read error reading pixels on scanline", "Stream too short", "inconsistent with stream length", "IO error during reading of" })
+         "bytes, expected", "Read error reading pixels on scanline", "Stream too short",
+         "inconsistent with stream length", "IO error during reading of" })
   {
     if (says(end))
     {
@@ -321,8 +322,7 @@ void decode(const Request& request, int file, int memory, Answer& answer)
     return;
   }
   const OIIO::ImageSpec& spec = input->spec();
-  const std::string extension = request.extension;
-  answer.linear = extension == "hdr" || extension == "exr" || spec.format.is_floating_point() ? 1 : 0;
+  answer.linear = spec.format.is_floating_point() ? 1 : 0;
   const bool encodes = request.values == Values::Codes && answer.linear != 0; // from floats
   const std::uint64_t fileBytes = std::max<std::uint64_t>(spec.pixel_bytes(true), encodes ? 4 * spec.nchannels : 0);
   if (!admit(request, spec.width, spec.depth > 1 ? 0 : spec.height, spec.nchannels, fileBytes,

@@ -23,11 +23,11 @@ def frames_of(value):
         if isinstance(value, (list, numpy.ndarray)):
             frames = [_check.integer("frames", one) for one in value]
             step = frames[1] - frames[0] if len(frames) > 1 else 1
-            if step > 0 and frames and frames == list(range(frames[0], frames[-1] + 1, step)):
+            if step > 0 and frames and frames == list(range(frames[0], frames[0] + step * len(frames), step)):
                 return frames[0], frames[-1], step
         else:
-            numbers = [_check.integer("frames", one) for one in (value if isinstance(value, tuple) else (value, value))]
-            first, last, step = numbers if len(numbers) == 3 else (*numbers, 1)
+            numbers = [_check.integer("frames", one) for one in (value if isinstance(value, tuple) else (value,))]
+            first, last, step = (numbers * 2 if len(numbers) == 1 else numbers) + [1] * (len(numbers) < 3)
             if first <= last and step >= 1:
                 return first, last, step
     except (TypeError, ValueError):  # of numbers that are none, or of another number of them

@@ -164,7 +164,13 @@ public:
     }
     catch (...)
     {
-      this->write(this->recordOf(false));
+      try
+      {
+        this->write(this->recordOf(false));
+      }
+      catch (const Error&) // what failed first is what is told
+      {
+      }
       throw;
     }
     this->Result.interrupted = this->isCancelled();

@@ -9,8 +9,6 @@
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -82,25 +80,31 @@ Place placeOf(const CameraRecord& camera, double metres)
   return { pose.translation * metres, quaternionOf(pose.rotation), Eigen::Vector3d::Ones() };
 }
 
-/// Where the middle of all places is, in whole kilometres, metres of the scene's axes: keys are float32, and so are
-/// matrices of many programs, which are fine near 0 alone.
+/// The median of all places, in whole kilometres, metres of the scene's axes: float32 is fine near 0 alone.
 Eigen::Vector3d originOf(const DatasetView& dataset)
 {
-  constexpr double kilometre = 1000;
-  Eigen::AlignedBox3d box;
+  std::vector<Eigen::Vector3d> places;
   for (const DatasetShot& shot : dataset.shots())
   {
-    box.extend(cameraFromWorld(shot.camera).inverse().translation);
+    places.push_back(cameraFromWorld(shot.camera).inverse().translation);
   }
   for (const int frame : dataset.frames())
   {
     for (const PoseRecord& pose : dataset.poses(frame))
     {
-      box.extend(pose.t);
+      places.push_back(pose.t);
     }
   }
-  const Eigen::Vector3d middle = box.center() * (dataset.metres() / kilometre);
-  return kilometre * middle.array().round().matrix() + Eigen::Vector3d::Zero(); // no -0
+  constexpr double kilometre = 1000;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto middle = places.begin() + std::ptrdiff_t(places.size() / 2);
+    std::nth_element(
+      places.begin(), middle, places.end(), [axis](const auto& p, const auto& q) { return p[axis] < q[axis]; });
+    origin[axis] += kilometre * std::round((*middle)[axis] * dataset.metres() / kilometre); // no -0
+  }
+  return origin;
 }
 
 /// What there is of an object over the frames.
