@@ -2,6 +2,7 @@
 #include "dgtkDatasetView.h"
 
 #include "dgtkError.h"
+#include "dgtkText.h"
 
 #include <Eigen/Geometry>
 
@@ -96,20 +97,9 @@ void requireNoSkew(const DatasetView& dataset, const std::string& format)
   }
 }
 
-namespace
-{
-/// Of ASCII.
-std::string lowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-} // namespace
-
 std::string namedClass(const std::string& name) { return name.empty() ? "object" : name; }
 
-void SafeNames::reserve(const std::string& name) { this->Taken.insert(lowerCase(name)); }
+void SafeNames::reserve(const std::string& name) { this->Taken.insert(lower(name)); }
 
 std::string SafeNames::of(const std::string& original)
 {
@@ -126,7 +116,7 @@ std::string SafeNames::of(const std::string& original)
   }
   safe = safe.empty() ? "_" : safe;
   std::string unique = safe;
-  for (int i = 2; !this->Taken.insert(lowerCase(unique)).second; ++i)
+  for (int i = 2; !this->Taken.insert(lower(unique)).second; ++i)
   {
     unique = safe + "_" + std::to_string(i);
   }

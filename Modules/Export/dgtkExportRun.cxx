@@ -318,7 +318,10 @@ void ExportRun::write(std::size_t index)
     sink.readsNotes([this](const std::string& list, const auto& visit) { this->forNotes(list, visit); });
   }
   item.write(sink);
-  requireCodes(sink.record().rounding, this->Request.options, item.files.empty() ? "" : item.files.front());
+  for (const LayerRounding& layer : sink.record().rounding)
+  {
+    requireCodes(layer, this->Request.options, item.files.empty() ? "" : item.files.front());
+  }
   this->Notes->add(index, sink.record());
 }
 

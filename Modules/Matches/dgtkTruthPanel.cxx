@@ -25,6 +25,7 @@ bool isSaid(Meaning meaning)
 {
   return meaning == Meaning::Class || meaning == Meaning::Index || meaning == Meaning::Visibility;
 }
+
 /// The visibility in the other image, which has the value's name and a word more.
 const PixelValue* visibilityOf(const PixelValue& value, const std::vector<PixelValue>& all)
 {

@@ -2,10 +2,9 @@
 #include "dgtkDatasetReader.h"
 
 #include "dgtkDatasetView.h"
-#include "dgtkFailure.h"
+#include "dgtkError.h"
 #include "dgtkFolderContents.h"
 #include "dgtkInterpreterPause.h"
-#include "dgtkLayerArrays.h"
 #include "dgtkReadLayers.h"
 
 #include "dgtkText.h"
@@ -16,10 +15,6 @@ vtkStandardNewMacro(dgtkDatasetReader);
 struct dgtkDatasetReader::Internal
 {
   std::shared_ptr<const dgtk::DatasetView> dataset;
-  dgtk::LayerArrays arrays;
-  int width = 0;
-  int height = 0;
-  dgtk::Failure failure;
 
   const dgtk::DatasetShot* picture(int index) const
   {
@@ -67,19 +62,20 @@ void dgtkDatasetReader::PrintSelf(ostream& os, vtkIndent indent)
 bool dgtkDatasetReader::Open(const std::string& folder)
 {
   this->Modified();
-  this->Self->arrays = {};
   this->Self->dataset.reset();
   try
   {
-    const dgtk::InterpreterPause pause;
-    dgtk::requireDataset(folder);
-    this->Self->dataset = std::make_shared<dgtk::DatasetView>(folder);
-    this->Self->failure.clear();
+    {
+      const dgtk::InterpreterPause pause;
+      dgtk::requireDataset(folder);
+      this->Self->dataset = std::make_shared<dgtk::DatasetView>(folder);
+    }
+    this->SetOutputs({}, 0, 0);
     return true;
   }
   catch (...)
   {
-    this->Self->failure.take();
+    this->SetFailure();
     return false;
   }
 }
@@ -87,7 +83,7 @@ bool dgtkDatasetReader::Open(const std::string& folder)
 void dgtkDatasetReader::ShallowCopy(dgtkDatasetReader* other)
 {
   this->Self->dataset = other != nullptr ? other->Self->dataset : nullptr;
-  this->Self->arrays = {};
+  this->SetOutputs({}, 0, 0);
   this->Modified();
 }
 
@@ -123,7 +119,6 @@ std::string dgtkDatasetReader::GetLayers() const
 
 bool dgtkDatasetReader::Read(const std::string& camera, int frame, const std::string& layers)
 {
-  this->Self->arrays = {};
   try
   {
     std::vector<dgtk::LayerArray> read;
@@ -132,33 +127,12 @@ bool dgtkDatasetReader::Read(const std::string& camera, int frame, const std::st
       const dgtk::InterpreterPause pause;
       read = dgtk::readLayers(*this->Self->dataset, shot, dgtk::splitNames(layers, "layers"));
     }
-    this->Self->arrays = dgtk::LayerArrays(std::move(read));
-    this->Self->width = shot.camera.width;
-    this->Self->height = shot.camera.height;
-    this->Self->failure.clear();
+    this->SetOutputs(std::move(read), shot.camera.width, shot.camera.height);
     return true;
   }
   catch (...)
   {
-    this->Self->failure.take();
+    this->SetFailure();
     return false;
   }
 }
-
-int dgtkDatasetReader::GetNumberOfOutputs() const { return this->Self->arrays.count(); }
-
-vtkDataArray* dgtkDatasetReader::GetOutput(int index) const { return this->Self->arrays.array(index); }
-
-std::string dgtkDatasetReader::GetOutputPart(int index) const { return this->Self->arrays.part(index); }
-
-std::string dgtkDatasetReader::GetOutputFormat(int index) const { return this->Self->arrays.format(index); }
-
-bool dgtkDatasetReader::IsOutputImage(int index) const { return this->Self->arrays.isImage(index); }
-
-int dgtkDatasetReader::GetWidth() const { return this->Self->width; }
-
-int dgtkDatasetReader::GetHeight() const { return this->Self->height; }
-
-std::string dgtkDatasetReader::GetErrorMessage() const { return this->Self->failure.message; }
-
-int dgtkDatasetReader::GetErrorCode() const { return this->Self->failure.code; }

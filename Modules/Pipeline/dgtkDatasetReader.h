@@ -10,19 +10,17 @@
 #ifndef dgtkDatasetReader_h
 #define dgtkDatasetReader_h
 
+#include "dgtkLayerOutputs.h"
 #include "dgtkPipelineModule.h"
-#include "vtkObject.h"
 
 #include <memory> // private state
 #include <string> // names
 
-class vtkDataArray;
-
-class DGTKPIPELINE_EXPORT dgtkDatasetReader : public vtkObject
+class DGTKPIPELINE_EXPORT dgtkDatasetReader : public dgtkLayerOutputs
 {
 public:
   static dgtkDatasetReader* New();
-  vtkTypeMacro(dgtkDatasetReader, vtkObject);
+  vtkTypeMacro(dgtkDatasetReader, dgtkLayerOutputs);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -54,27 +52,6 @@ public:
    * see GetErrorMessage(), which also names the layers that the picture has.
    */
   bool Read(const std::string& camera, int frame, const std::string& layers);
-
-  ///@{
-  /**
-   * What was read last, as of dgtkRenderer.
-   */
-  int GetNumberOfOutputs() const;
-  vtkDataArray* GetOutput(int index) const;
-  std::string GetOutputPart(int index) const;
-  std::string GetOutputFormat(int index) const;
-  bool IsOutputImage(int index) const;
-  int GetWidth() const;
-  int GetHeight() const;
-  ///@}
-
-  ///@{
-  /**
-   * What went wrong last, as of dgtkRenderer.
-   */
-  std::string GetErrorMessage() const;
-  int GetErrorCode() const;
-  ///@}
 
 protected:
   dgtkDatasetReader();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderer.h"
 
-#include "dgtkFailure.h"
+#include "dgtkArraySink.h"
+#include "dgtkError.h"
 #include "dgtkInterpreterPause.h"
 #include "dgtkKeptSource.h"
-#include "dgtkLayerArrays.h"
 #include "dgtkScene.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
@@ -164,19 +164,15 @@ struct dgtkRenderer::Internal
   dgtk::LayerRequest request;
   std::string camera;
   std::optional<int> frame;
-  dgtk::Failure failure;
-  int width = 0;
-  int height = 0;
   dgtk::KeptSource source;
   std::atomic<pid_t> drawing{ 0 }; // the process in which one is under way; one that was forked may go on
-  dgtk::LayerArrays arrays;
 
-  bool render(const std::function<std::vector<std::string>()>& layers);
+  bool render(dgtkRenderer& self, const std::function<std::vector<std::string>()>& layers);
   std::vector<dgtk::LayerArray> draw(Wanted wanted, int& columns, int& rows);
   std::vector<dgtk::LayerArray> drawPicture(Wanted& wanted, int& columns, int& rows);
 };
 
-bool dgtkRenderer::Internal::render(const std::function<std::vector<std::string>()>& layers)
+bool dgtkRenderer::Internal::render(dgtkRenderer& self, const std::function<std::vector<std::string>()>& layers)
 {
   try
   {
@@ -189,16 +185,12 @@ bool dgtkRenderer::Internal::render(const std::function<std::vector<std::string>
     int columns = 0;
     int rows = 0;
     std::vector<dgtk::LayerArray> drawn = this->draw(std::move(wanted), columns, rows);
-    this->width = columns;
-    this->height = rows;
-    this->failure.clear();
-    this->arrays = dgtk::LayerArrays(std::move(drawn));
+    self.SetOutputs(std::move(drawn), columns, rows);
     return true;
   }
   catch (...)
   {
-    this->arrays = {};
-    this->failure.take();
+    self.SetFailure();
     return false;
   }
 }
@@ -318,28 +310,11 @@ std::string dgtkRenderer::GetOptions()
 
 vtkDataArray* dgtkRenderer::Render(const std::string& layer)
 {
-  return this->Self->render([&layer] { return std::vector<std::string>{ layer }; }) ? this->GetOutput(0) : nullptr;
+  return this->Self->render(*this, [&layer] { return std::vector<std::string>{ layer }; }) ? this->GetOutput(0)
+                                                                                           : nullptr;
 }
 
 bool dgtkRenderer::RenderLayers(const std::string& layers)
 {
-  return this->Self->render([&layers] { return dgtk::splitNames(layers, "layers"); });
+  return this->Self->render(*this, [&layers] { return dgtk::splitNames(layers, "layers"); });
 }
-
-int dgtkRenderer::GetNumberOfOutputs() const { return this->Self->arrays.count(); }
-
-vtkDataArray* dgtkRenderer::GetOutput(int index) const { return this->Self->arrays.array(index); }
-
-std::string dgtkRenderer::GetOutputPart(int index) const { return this->Self->arrays.part(index); }
-
-std::string dgtkRenderer::GetOutputFormat(int index) const { return this->Self->arrays.format(index); }
-
-bool dgtkRenderer::IsOutputImage(int index) const { return this->Self->arrays.isImage(index); }
-
-int dgtkRenderer::GetWidth() const { return this->Self->width; }
-
-int dgtkRenderer::GetHeight() const { return this->Self->height; }
-
-std::string dgtkRenderer::GetErrorMessage() const { return this->Self->failure.message; }
-
-int dgtkRenderer::GetErrorCode() const { return this->Self->failure.code; }

@@ -10,8 +10,8 @@
 #ifndef dgtkRenderer_h
 #define dgtkRenderer_h
 
+#include "dgtkLayerOutputs.h"
 #include "dgtkPipelineModule.h"
-#include "vtkObject.h"
 
 #include <memory> // private state
 #include <string> // names
@@ -19,11 +19,11 @@
 class dgtkScene;
 class vtkDataArray;
 
-class DGTKPIPELINE_EXPORT dgtkRenderer : public vtkObject
+class DGTKPIPELINE_EXPORT dgtkRenderer : public dgtkLayerOutputs
 {
 public:
   static dgtkRenderer* New();
-  vtkTypeMacro(dgtkRenderer, vtkObject);
+  vtkTypeMacro(dgtkRenderer, dgtkLayerOutputs);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -78,37 +78,6 @@ public:
    * layers that can be had so.
    */
   bool RenderLayers(const std::string& layers);
-
-  ///@{
-  /**
-   * What was rendered last, arrays with the values of the layers' files, named by the output ("depth",
-   * "flow_forward_class"). An image has GetWidth() x GetHeight() tuples, rows top to bottom. A document's bytes have a
-   * format ("json"). A layered depth image is several arrays of one name, each a part: "count" (an image), "rgba",
-   * "depth" and "splat" of all its surfaces. Arrays belong to the caller's reference.
-   */
-  int GetNumberOfOutputs() const;
-  vtkDataArray* GetOutput(int index) const;
-  std::string GetOutputPart(int index) const;
-  std::string GetOutputFormat(int index) const;
-  bool IsOutputImage(int index) const;
-  ///@}
-
-  ///@{
-  /**
-   * Size of the last rendered image, pixels.
-   */
-  int GetWidth() const;
-  int GetHeight() const;
-  ///@}
-
-  ///@{
-  /**
-   * What went wrong last, one line; empty after success. The code is the exit status that it means for a program: 2
-   * for a wrong request, 3 for input that cannot be used, 4 for what the machine cannot do; 0 after success.
-   */
-  std::string GetErrorMessage() const;
-  int GetErrorCode() const;
-  ///@}
 
 protected:
   dgtkRenderer();

@@ -35,15 +35,12 @@ void requireWhole(const OptionValues& options, const std::string& format)
   }
 }
 
-void requireCodes(const std::vector<LayerRounding>& layers, const OptionValues& options, const std::string& file)
+void requireCodes(const LayerRounding& layer, const OptionValues& options, const std::string& place)
 {
-  for (const LayerRounding& one : layers)
+  if (layer.withoutCode > 0 && exported::outOfRange().of(options) == "refuse")
   {
-    if (one.withoutCode > 0 && exported::outOfRange().of(options) == "refuse")
-    {
-      throw UsageError("out_of_range: " + std::to_string(one.withoutCode) + " values of layer " + one.layer + " (" +
-                       file + ") have no code in the format");
-    }
+    throw UsageError("out_of_range: " + std::to_string(layer.withoutCode) + " values of layer " + layer.layer + " (" +
+                     place + ") have no code in the format");
   }
 }
 

@@ -17,8 +17,8 @@ namespace dgtk
 void requirePng(const OptionValues& options, const std::string& format);
 /// The format has no parts.
 void requireWhole(const OptionValues& options, const std::string& format);
-/// No value of an item is without a code, where such are to be refused; `file` is the item's first.
-void requireCodes(const std::vector<LayerRounding>& layers, const OptionValues& options, const std::string& file);
+/// No value of a layer is without a code, where such are to be refused (option out_of_range); `place`: of which values.
+void requireCodes(const LayerRounding& layer, const OptionValues& options, const std::string& place);
 /// Of a whole export: no layer is without a code at all its values.
 void requireSomeCodes(const std::vector<LayerRounding>& layers, const std::string& format);
 /// The dataset has a file at least of every layer.

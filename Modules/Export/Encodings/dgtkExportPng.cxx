@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkExport.h"
+#include "dgtkExportChecks.h"
 #include "dgtkExportJpeg.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
@@ -105,13 +106,9 @@ std::uint32_t CodeCounter::operator()(double value)
 
 void CodeCounter::report(ExportSink& sink, const DatasetShot& shot, const OptionValues& options) const
 {
-  if (this->Without > 0 && exported::outOfRange().of(options) == "refuse")
-  {
-    throw UsageError("out_of_range: " + std::to_string(this->Without) + " values of layer " + this->Layer +
-                     " (camera " + quoted(shot.name()) + ", frame " + std::to_string(shot.frame()) +
-                     ") have no code in the format");
-  }
-  sink.rounding({ this->Layer, this->Code.unit, this->Code.scale / 2, this->Values, this->Without });
+  const LayerRounding rounding{ this->Layer, this->Code.unit, this->Code.scale / 2, this->Values, this->Without };
+  requireCodes(rounding, options, "camera " + quoted(shot.name()) + ", frame " + std::to_string(shot.frame()));
+  sink.rounding(rounding);
 }
 
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,

@@ -15,7 +15,7 @@ from ._build import EXECUTABLE, PYTHON, VERSION
 
 __version__ = VERSION
 __all__ = ["load", "scene", "Scene", "sample", "random", "render", "generate", "dataset", "Dataset", "export", "exporters", "truth", "Truth", "snapshot", "Snapshot", "correspond", "visible_cells",
-           "dgtkScene", "dgtkSceneSampler", "dgtkRenderer", "dgtkDatasetGenerator", "dgtkDatasetReader", "dgtkDatasetExporter", "dgtkSnapshot", "dgtkGroundTruthSource", "dgtkPointCloudSource",
+           "dgtkScene", "dgtkSceneSampler", "dgtkRenderer", "dgtkLayerOutputs", "dgtkDatasetGenerator", "dgtkDatasetReader", "dgtkDatasetExporter", "dgtkSnapshot", "dgtkGroundTruthSource", "dgtkPointCloudSource",
            "dgtkDepthFromZBuffer"]
 
 if sys.version_info[:2] != PYTHON:
@@ -29,7 +29,7 @@ try:
     from ._scenes import Scene, load, scene
     from ._vtk import Snapshot, Truth, correspond, snapshot, truth, visible_cells
     from .dgtkFromVTK import dgtkDepthFromZBuffer, dgtkGroundTruthSource, dgtkPointCloudSource, dgtkSnapshot
-    from .dgtkPipeline import dgtkDatasetExporter, dgtkDatasetGenerator, dgtkDatasetReader, dgtkRenderer, dgtkScene, dgtkSceneSampler
+    from .dgtkPipeline import dgtkDatasetExporter, dgtkDatasetGenerator, dgtkDatasetReader, dgtkLayerOutputs, dgtkRenderer, dgtkScene, dgtkSceneSampler
 except ImportError as error:
     raise ImportError("dgtk %s needs NumPy and VTK as %s has them (Debian: python3-numpy, python3-vtk9), this is %s: %s"
                       % (VERSION, EXECUTABLE, sys.executable, error)) from None

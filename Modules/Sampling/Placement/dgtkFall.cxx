@@ -309,9 +309,10 @@ bool Fall::Impl::advance(double lowest)
   const double fastest = this->fastest();
   const int parts = std::clamp(int(std::ceil(this->step * fastest)), 1, mostParts);
   // All corners of a side that comes down flat are contacts at once: one after the other they would turn what falls.
-  // What is slow does not turn much, and lies in many contacts.
-  const double isQuick = quick / contact * std::sqrt(this->settings.gravity / this->settings.size);
-  this->configuration.setConvexConvexMultipointIterations(fastest > isQuick ? 4 : 0, 2);
+  // Bullet takes the number for pairs that begin to be near one another in this step; what is slow then does not turn
+  // much, and lies in many contacts.
+  const double quickest = quick / contact * std::sqrt(this->settings.gravity / this->settings.size);
+  this->configuration.setConvexConvexMultipointIterations(fastest > quickest ? 4 : 0, 2);
   for (int i = 0; i < parts; ++i)
   {
     this->world.stepSimulation(this->step / parts, 0);
