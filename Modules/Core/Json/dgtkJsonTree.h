@@ -6,7 +6,7 @@
 
 #include "dgtkError.h"
 #include "dgtkJson.h"
-#include "dgtkText.h"
+#include "dgtkJsonFault.h"
 #include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
@@ -78,15 +78,7 @@ public:
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override
   {
-    std::string text = untagged(error.what());
-    const std::size_t start = text.find(": ");
-    text = start == std::string::npos ? text : text.substr(start + 2);
-    constexpr std::size_t most = 160;
-    const std::size_t end = std::min(text.rfind("'; expected "), text.size()); // of what was read, which may be long
-    text = end > most ? text.substr(0, most) + " ..." + text.substr(end) : text;
-    std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < 0x20 || c == 0x7f; }, '?');
-    throw InputError(this->File, this->Line, "is not valid JSON: " + text);
+    throw jsonFault(this->File, this->Line, error.what());
   }
 
 protected:

@@ -33,12 +33,6 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
   return text;
 }
 
-std::string untagged(const std::string& message)
-{
-  const std::size_t end = message.find("] ");
-  return message.empty() || message[0] != '[' || end == std::string::npos ? message : message.substr(end + 2);
-}
-
 std::string shortest(double value)
 {
   if (std::isnan(value))

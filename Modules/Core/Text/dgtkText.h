@@ -26,9 +26,6 @@ DGTKCORE_EXPORT std::string shortest(double value);
 /// The same without an exponent from 1e-6 to 1e15.
 DGTKCORE_EXPORT std::string plainNumber(double value);
 
-/// A library's message without the tag in brackets before it: "[json.exception.type_error.302] no" is "no".
-DGTKCORE_EXPORT std::string untagged(const std::string& message);
-
 /// The candidate with the smallest edit distance, the first of these, whatever the case of letters; "" when none is
 /// near: more than two letters, and more than half of them, must be changed.
 DGTKCORE_EXPORT std::string nearest(const std::string& word, const std::vector<std::string>& candidates);

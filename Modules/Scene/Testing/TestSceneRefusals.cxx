@@ -112,24 +112,36 @@ TEST(SceneRefusals, Thesis)
 
 TEST(SceneRefusals, JsonSyntax)
 {
+  const std::string invalid = "is not valid JSON (expected ";
   const std::vector<Case> cases{
-    { "", "a.json:1: is not valid JSON" },
+    { "", "a.json:1: " + invalid + "a value, found the end of the file)" },
     { "[]", "a.json:1: has the wrong type (expected an object, found a list of 0)" },
-    { "{\n\n\"fps\": }\n", "a.json:3: is not valid JSON" },
-    { "{\n\"fps\": nan\n}\n", "a.json:2: is not valid JSON" },
-    { "{\n\"fps\": 1e999\n}\n", "a.json:2: is not valid JSON: number overflow" },
+    { "{\n\n\"fps\": }\n", "a.json:3: " + invalid + "a value, found '}')" },
+    { "{\n\"fps\": nan\n}\n", "a.json:2: " + invalid + "a value, found 'na')" },
+    { "{\n\"fps\":\n\nx", "a.json:4: " + invalid + "a value, found 'x')" },
+    { "{\n\"fps\": 1e999\n}\n",
+      "a.json:2: number cannot be used (expected a number within the range of double precision, found '1e999')" },
     { "{\n\"fps\": 25,\n\"fps\": 30\n}\n", "a.json:3: key 'fps' is given twice" },
-    { "{} {}", "a.json:1: is not valid JSON" },
-    { "{\n\"units\": \"m\xff\"\n}", "a.json:2: is not valid JSON" },
-    { "{\n\"units\": \"m\xff\"\n}", "last read: '\"m?'" }, // a terminal is shown no bytes that are no text
-    { "{\"units\": m\x7f}", "last read: '\"units\": m'" },
-    { std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "a.json:1: is not valid JSON" },
+    { "{\"fps\": 25\n\"units\": 1}", "a.json:2: " + invalid + "',' or '}', found a text)" },
+    { "{\"fps\" 25}", "a.json:1: " + invalid + "':', found a number)" },
+    { "{\"fps\": 25,}", "a.json:1: " + invalid + "a key in quotes, found '}')" },
+    { "{'fps': 25}", "a.json:1: " + invalid + "a key in quotes, found ''')" },
+    { "{\"a\": [1 true]}", "a.json:1: " + invalid + "',' or ']', found true)" },
+    { "{\"a\": [1", "a.json:1: " + invalid + "',' or ']', found the end of the file)" },
+    { "{} {}", "a.json:1: " + invalid + "the end of the file, found '{')" },
+    { "{\"a\": -}", "a.json:1: " + invalid + "a digit, found '-}')" },
+    { "{\"a\": \"\\q\"}", "a.json:1: " + invalid + "an escape that JSON has: " },
+    { "{\"a\": \"b\tc\"}", "a.json:1: " + invalid + "an escape for a control character, found '\"b<U+0009>')" },
+    { "{\"a\": \"b", "a.json:1: " + invalid + "a quote at the text's end, found '\"b')" },
+    // A terminal is shown no bytes that are no text.
+    { "{\n\"units\": \"m\xff\"\n}", "a.json:2: " + invalid + "UTF-8, found '\"m\\xFF')" },
+    { "{\"units\": m\x7f}", invalid + "a value, found 'm')" },
+    { std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "a.json:1: " + invalid + "a value, found '\\x89')" },
     { "{\"x\": " + std::string(1000, '['), "a.json:1: is nested too deeply (expected at most 32 levels)" },
-    { std::string("{}\n\0", 4), "a.json:2: is not valid JSON" }, // as after a machine's failure
-    { std::string("{}\0{}", 5), "a.json:1: is not valid JSON" },
-    { "{\n/* open", "a.json:2: is not valid JSON" },
-    { "{\"version\": 1, \"obj\n", "last read: '\"obj<U+000A>'; expected string literal" },
-    { "{\"version\": 1, \"" + std::string(500, 'a') + "\n", "aaa ...'; expected string literal" },
+    { std::string("{}\n\0", 4), "a.json:2: " + invalid }, // as after a machine's failure
+    { std::string("{}\0{}", 5), "a.json:1: " + invalid },
+    { "{\n/* open", "a.json:2: " + invalid + "a comment as // to the line's end or as /* to */, found " },
+    { "{\"version\": 1, \"" + std::string(500, 'a') + "\n", std::string(30, 'a') },
   };
   for (const Case& c : cases)
   {

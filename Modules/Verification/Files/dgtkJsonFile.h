@@ -6,7 +6,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkText.h"
+#include "dgtkJsonFault.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,7 +27,7 @@ auto useJson(const std::string& path, const Body& body)
   }
   catch (const nlohmann::json::exception& error)
   {
-    throw InputError(path, "cannot be used: " + untagged(error.what()));
+    throw jsonFault(path, 0, error.what());
   }
   catch (const std::out_of_range&)
   {

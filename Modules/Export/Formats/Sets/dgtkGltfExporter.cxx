@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportSeries.h"
 #include "dgtkFile.h"
 #include "dgtkGltf.h"
+#include "dgtkJsonFault.h"
 #include "dgtkPortableMath.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
@@ -50,7 +50,7 @@ nlohmann::json sceneOf(const DatasetView& dataset)
   }
   catch (const nlohmann::json::exception& error)
   {
-    throw InputError(path, "cannot be used: " + untagged(error.what()));
+    throw jsonFault(path, 0, error.what());
   }
 }
 
