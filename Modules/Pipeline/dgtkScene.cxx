@@ -6,6 +6,7 @@
 #include "dgtkLikeScene.h"
 #include "dgtkModelCache.h"
 #include "dgtkSceneFromText.h"
+#include "dgtkUtf8.h"
 
 #include "vtkObjectFactory.h"
 
@@ -34,35 +35,40 @@ struct dgtkScene::Internal
   std::vector<std::string> objects; ///< names by id - 1
   std::string folder;
   std::string file;
+  std::string warnings; ///< a line each
   dgtk::Failure failure;
 
   void hold(dgtk::StageWithFiles loaded);
-  void load(const std::function<dgtk::StageWithFiles()>& make);
+  void load(const std::function<dgtk::SceneDescription()>& read, const dgtk::ReadFiles* known);
 };
 
 void dgtkScene::Internal::hold(dgtk::StageWithFiles loaded)
 {
   this->stage = std::move(loaded.stage);
   this->files = std::move(loaded.files);
+  this->warnings.clear();
   this->objects = this->stage ? this->stage->objectNames() : std::vector<std::string>();
   this->folder = this->stage ? absolutePath(this->stage->description().folder) : "";
   const bool ofFile = this->stage && !this->stage->description().file.empty();
   this->file = ofFile ? absolutePath(this->stage->description().file) : "";
 }
 
-void dgtkScene::Internal::load(const std::function<dgtk::StageWithFiles()>& make)
+void dgtkScene::Internal::load(const std::function<dgtk::SceneDescription()>& read, const dgtk::ReadFiles* known)
 {
   this->hold({});
   this->failure.clear();
   try
   {
     dgtk::StageWithFiles loaded;
+    std::string said;
     {
       const dgtk::InterpreterPause pause;
       UseModelCache();
-      loaded = make();
+      loaded =
+        dgtk::loadLike(read(), known, [&said](const std::string& line) { said += dgtk::printable(line) + '\n'; });
     }
     this->hold(std::move(loaded));
+    this->warnings = std::move(said);
   }
   catch (...)
   {
@@ -95,7 +101,7 @@ void dgtkScene::UseModelCache()
 
 bool dgtkScene::Load(const std::string& path)
 {
-  this->Self->load([&path] { return dgtk::loadLike(dgtk::readScene(path), nullptr); });
+  this->Self->load([&path] { return dgtk::readScene(path); }, nullptr);
   this->Modified();
   return this->Self->stage != nullptr;
 }
@@ -108,7 +114,7 @@ bool dgtkScene::LoadText(const std::string& json, const std::string& folder)
 bool dgtkScene::LoadTextLike(const std::string& json, const std::string& folder, dgtkScene* like)
 {
   const std::shared_ptr<const dgtk::ReadFiles> known = like ? like->Self->files : nullptr;
-  this->Self->load([&] { return dgtk::loadLike(dgtk::readSceneText(json, folder), known.get()); });
+  this->Self->load([&] { return dgtk::readSceneText(json, folder); }, known.get());
   this->Modified();
   return this->Self->stage != nullptr;
 }
@@ -157,6 +163,8 @@ std::string dgtkScene::GetFile() const { return this->Self->file; }
 std::string dgtkScene::GetErrorMessage() const { return this->Self->failure.message; }
 
 int dgtkScene::GetErrorCode() const { return this->Self->failure.code; }
+
+std::string dgtkScene::GetWarnings() const { return this->Self->warnings; }
 
 int dgtkScene::GetNumberOfCameras() const
 {

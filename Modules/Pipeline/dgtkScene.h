@@ -61,6 +61,11 @@ public:
   int GetErrorCode() const;
   ///@}
 
+  /**
+   * What deserves a word of a scene that was loaded, as textures that are missing: a line each.
+   */
+  std::string GetWarnings() const;
+
   ///@{
   /**
    * Cameras, in the scene's order.

@@ -6,6 +6,7 @@
 #include "dgtkSampleDraws.h"
 #include "dgtkSampler.h"
 #include "dgtkScene.h"
+#include "dgtkUtf8.h"
 
 #include "vtkObjectFactory.h"
 
@@ -20,6 +21,7 @@ struct dgtkSceneSampler::Internal
   std::unique_ptr<dgtk::Sampler> sampler; ///< of `seed`
   long long seed = -1;
   std::string description;
+  std::string leftOut; ///< a line each
   dgtk::Failure failure;
 
   bool attempt(const std::function<void()>& work)
@@ -66,6 +68,7 @@ bool dgtkSceneSampler::LoadText(const std::string& json, const std::string& fold
 bool dgtkSceneSampler::Draw(int sample, const std::string& folder)
 {
   this->Self->description.clear();
+  this->Self->leftOut.clear();
   return this->Self->attempt(
     [&]
     {
@@ -81,11 +84,18 @@ bool dgtkSceneSampler::Draw(int sample, const std::string& folder)
         this->Self->sampler = std::make_unique<dgtk::Sampler>(this->Self->scene, own);
         this->Self->seed = this->Seed;
       }
-      this->Self->description = toJson(this->Self->sampler->draw(std::uint64_t(sample)).scene, folder);
+      const dgtk::SceneSample drawn = this->Self->sampler->draw(std::uint64_t(sample));
+      this->Self->description = toJson(drawn.scene, folder);
+      for (const dgtk::SampleNote& note : drawn.notes)
+      {
+        this->Self->leftOut += note.kept ? "" : dgtk::printable(note.path + ": " + note.why) + '\n';
+      }
     });
 }
 
 std::string dgtkSceneSampler::GetDescription() const { return this->Self->description; }
+
+std::string dgtkSceneSampler::GetLeftOut() const { return this->Self->leftOut; }
 
 std::string dgtkSceneSampler::GetErrorMessage() const { return this->Self->failure.message; }
 

@@ -42,6 +42,12 @@ public:
   bool Draw(int sample, const std::string& folder);
   std::string GetDescription() const;
 
+  /**
+   * Of the sample that was drawn last: the objects and cameras that it has not, since their rules could not be kept; a
+   * line each, of the rule's path and why.
+   */
+  std::string GetLeftOut() const;
+
   ///@{
   /**
    * What went wrong last, as of dgtkScene.

@@ -9,6 +9,7 @@ import os
 import pickle
 import shutil
 import subprocess
+import warnings
 
 import numpy
 from harness import SCENES, SOURCE, Case, digests, main, measures
@@ -38,6 +39,16 @@ class Samples(Case):
         drawn = dgtk.sample({"objects": [{"name": "o", "model": {"choice": {"files": "m/*.obj"}}}]}, 0, folder=self.folder)
         self.assertEqual(os.path.realpath(drawn["objects"][0]["model"]), os.path.realpath(self.path("m/a.obj")))
 
+    def test_what_a_sample_goes_without_is_a_warning(self):
+        self.write("flat.obj", "v -1 0 -1\nv 1 0 -1\nv 0 0 1\nf 1 2 3\n")
+        self.write("tall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        scene = {"objects": [{"name": "table", "model": "flat.obj"},
+                             {"name": "cup", "model": "tall.obj", "scale": 9, "place": {"on": "table", "attempts": 3}}]}
+        with self.assertWarnsRegex(UserWarning, "^left out: objects/cup/place: ") as warned:
+            drawn = dgtk.sample(scene, 0, folder=self.folder)
+        self.assertEqual(os.path.basename(warned.filename), os.path.basename(__file__))
+        self.assertEqual([one["name"] for one in drawn["objects"]], ["table"])
+
     def test_refusals(self):
         wrong = {"lights": [{"name": "l", "intensity": {"uniform": [2, 1]}}]}
         for call, says in ((lambda: dgtk.sample(wrong, 0), r"lights\[0\].intensity.uniform is empty"), (lambda: dgtk.sample(self.SCENE, -1), "number: "),
@@ -53,6 +64,20 @@ class Samples(Case):
 
 
 class Scenes(Case):
+    def test_a_missing_texture_is_a_warning(self):
+        self.write("tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+        description = {"objects": [{"model": self.path("tri.obj"), "materials": {"*": {"texture": "no.png"}}}]}
+        file = self.write("missing.json", json.dumps(description))
+        for make, says in ((lambda: dgtk.scene(description), "^scene: .*'no.png': not found"),
+                           (lambda: dgtk.load(file), r"missing.json: .*'no.png': not found")):
+            with self.assertWarnsRegex(UserWarning, says) as warned:
+                made = make()
+            self.assertEqual(os.path.basename(warned.filename), os.path.basename(__file__))
+            self.assertEqual(made.GetWarnings().count("\n"), 1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            dgtk.scene({"objects": [{"model": self.path("tri.obj")}]})
+
     def test_a_description_is_the_scene_again(self):
         loaded = dgtk.load(DEMO)
         description = loaded.description()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plain scenes of random ones, and random numbers that are functions of their names."""
 import json
+import warnings
 
 from . import _check
 from ._scenes import _plain
@@ -24,7 +25,8 @@ def sample(scene, number, seed=None, folder=None):
         depth = dgtk.render(dgtk.scene(plain), "depth")
 
     Returns a dict that `scene()` takes; its relative paths start in the current folder. It is a function of scene,
-    seed and number alone. Raises ValueError, one line with the value that cannot be used, or with the rule that cannot
+    seed and number alone. An object or a camera whose rule cannot be kept, and that the sample goes without, is a warning.
+    Raises ValueError, one line with the value that cannot be used, or with the rule that cannot
     be kept in this sample, and RuntimeError for what the machine cannot do.
     """
     sampler = dgtkSceneSampler()
@@ -38,6 +40,8 @@ def sample(scene, number, seed=None, folder=None):
     sampler.SetSeed(-1 if seed is None else _seed(seed))
     if not loaded or not sampler.Draw(_check.integer("number", number), _check.absolute("folder", ".")):
         _check.raise_error(sampler)
+    for line in sampler.GetLeftOut().splitlines():
+        warnings.warn(f"left out: {line}", stacklevel=2)
     return json.loads(sampler.GetDescription())
 
 

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import warnings
 
 import numpy
 
@@ -55,18 +56,24 @@ class Scene(dgtkScene):
         return (scene, (self.description(), self.folder)) if self.folder else (Scene, ())
 
 
+def _loaded(scene_, done):
+    if not done:
+        _check.raise_error(scene_)
+    for line in scene_.GetWarnings().splitlines():
+        warnings.warn(line, stacklevel=3)
+    return scene_
+
+
 def load(path):
     """Loads a scene with its models.
 
     path: a .json or .scene file, str or path-like.
 
-    Returns a Scene. Raises ValueError, one line with file, line and what is wrong, for a file that cannot be used, and
+    Returns a Scene; textures that are missing are warnings. Raises ValueError, one line with file, line and what is wrong, for a file that cannot be used, and
     RuntimeError for what the machine cannot do (memory).
     """
     loaded = Scene()
-    if not loaded.Load(_check.path("path", path)):
-        _check.raise_error(loaded)
-    return loaded
+    return _loaded(loaded, loaded.Load(_check.path("path", path)))
 
 
 def scene(description, folder=None, like=None):
@@ -81,7 +88,7 @@ def scene(description, folder=None, like=None):
         more["objects"][0]["position"] = [0, 2, 0]
         moved = dgtk.scene(more, like=scene)
 
-    Returns a Scene. Raises ValueError, one line that names the value ("scene: objects[2].position[1] has the wrong type
+    Returns a Scene; textures that are missing are warnings. Raises ValueError, one line that names the value ("scene: objects[2].position[1] has the wrong type
     (expected a number from -1e15 to 1e15, found 'far')"), and RuntimeError for what the machine cannot do.
     """
     if not isinstance(description, dict):
@@ -92,9 +99,7 @@ def scene(description, folder=None, like=None):
         folder = (_folder(like) if like else "") or "."
     text = json.dumps(_plain(description, ""), allow_nan=False)
     made = Scene()
-    if not made.LoadTextLike(text, _check.absolute("folder", folder), like):
-        _check.raise_error(made)
-    return made
+    return _loaded(made, made.LoadTextLike(text, _check.absolute("folder", folder), like))
 
 
 def _fail(path, expected, value, what="has the wrong type"):
