@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`dgtk sample`: a sample depends on its number alone, folders of others are left alone, scenes can be rendered."""
+import fcntl
 import json
 import os
 import subprocess
@@ -122,6 +123,18 @@ class Sample(Case):
         self.refused("sample", scene, "-o", self.path("own"), "--samples", "0:1", status=2, says="--replace")
         self.dgtk("sample", scene, "-o", self.path("own"), "--samples", "0:1", "--replace", "--quiet")
         self.assertEqual(sorted(os.listdir(self.path("own"))), ["000000.json", "000001.json", "samples.json"])
+
+    def test_one_run_at_a_time_writes_into_a_folder(self):
+        command = ("sample", self.scene(), "-o", self.path("own"), "--samples", "0", "--quiet")
+        self.dgtk(*command)
+        folder = os.open(self.path("own"), os.O_RDONLY)
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        before = os.stat(self.path("own/samples.json")).st_mtime_ns
+        for more in ((), ("--replace",)):
+            self.refused(*command, *more, status=75, says="own: another process is writing it")
+        self.assertEqual(os.stat(self.path("own/samples.json")).st_mtime_ns, before)
+        os.close(folder)
+        self.dgtk(*command, "--replace")
 
     def test_an_interrupted_run_is_begun_anew(self):
         command = ("sample", self.scene(), "-o", self.path("own"), "--quiet", "--samples")

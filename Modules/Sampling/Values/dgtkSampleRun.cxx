@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampleRun.h"
 
+#include "dgtkAgainError.h"
 #include "dgtkFile.h"
+#include "dgtkFolder.h"
 #include "dgtkHash.h"
 #include "dgtkSampler.h"
 #include "dgtkThreadPool.h"
@@ -9,7 +11,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fcntl.h>
+#include <sys/file.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -57,11 +63,23 @@ bool isOfSameRun(Json record, const Json& begun)
   return record == begun;
 }
 
+/// The folder for one run alone, as long as this stands: the system lets go of it when the process ends, however it
+/// ends. A file system without locks knows of nobody.
+FileDescriptor lockOf(const std::string& folder)
+{
+  makeFolders(folder);
+  FileDescriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock && ::flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+  {
+    throw AgainError(folder + ": another process is writing it");
+  }
+  return lock;
+}
+
 /// Throws unless the folder is free, may be made so, or holds what an interrupted run of the same samples has left:
 /// `begun` is the record with which a run begins.
 void clearFolder(const SampleRequest& request, const Json& begun)
 {
-  makeFolders(request.folder);
   const Folder folder(request.folder);
   std::vector<std::string> samples;
   std::string foreign;
@@ -155,6 +173,7 @@ public:
   SampleResult all()
   {
     const Json begun = this->recordOf(false);
+    const FileDescriptor lock = lockOf(this->Request.folder);
     clearFolder(this->Request, begun);
     this->write(begun);
     try
