@@ -6,6 +6,7 @@
 #include "dgtkFolderContents.h"
 #include "dgtkInterpreterPause.h"
 #include "dgtkReadLayers.h"
+#include "dgtkSceneFolders.h"
 
 #include "dgtkText.h"
 #include "vtkObjectFactory.h"
@@ -68,6 +69,11 @@ bool dgtkDatasetReader::Open(const std::string& folder)
     {
       const dgtk::InterpreterPause pause;
       dgtk::requireDataset(folder);
+      if (const std::vector<std::string> scenes = dgtk::sceneFoldersIn(folder); !scenes.empty())
+      {
+        throw dgtk::InputError(folder, "holds " + std::to_string(scenes.size()) + " datasets",
+          "one of them, such as " + dgtk::quoted(scenes.front()));
+      }
       this->Self->dataset = std::make_shared<dgtk::DatasetView>(folder);
     }
     this->SetOutputs({}, 0, 0);

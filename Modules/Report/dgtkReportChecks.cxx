@@ -8,9 +8,11 @@
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
 #include "dgtkJson.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkUtf8.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -122,6 +124,76 @@ std::string sampleName(const JsonNode& sample, std::size_t index)
   }
   return std::to_string(index);
 }
+
+ReportJson verificationIn(const JsonCursor& root, const std::string& dataset)
+{
+  if (!root.has("format") || root["format"].node().text != "DGTk verification")
+  {
+    root.fail("is not what a verification of a dataset says");
+  }
+  const std::string hash = root.has("dataset_manifest") ? root["dataset_manifest"].text() : "";
+  return { { "passed", root["passed"].boolean() }, { "same", isOf(dataset, hash) },
+    { "residuals", rowsOf(root["residuals"]) },
+    { "unchecked", root.has("not_checked") ? rowsOf(root["not_checked"]) : ReportJson::array() } };
+}
+
+/// Adds a row of a dataset to the row of the same check, or files, of those before: numbers are added, of residuals the
+/// largest is kept, and the dataset that breaks it first.
+void addRow(ReportJson& rows, const ReportJson& row, const char* key, const char* second, const std::string& name)
+{
+  const auto is = [&](const ReportJson& other)
+  { return other.value(key, "") == row.value(key, "") && other.value(second, "") == row.value(second, ""); };
+  auto known = std::find_if(rows.begin(), rows.end(), is);
+  const bool isNew = known == rows.end();
+  if (isNew)
+  {
+    rows.push_back(row);
+    known = std::prev(rows.end());
+  }
+  for (const char* sum : { "count", "skipped", "bad", "files" })
+  {
+    if (!isNew && row.contains(sum))
+    {
+      (*known)[sum] = known->value(sum, 0.0) + row.value(sum, 0.0);
+    }
+  }
+  if (row.value("breach", false) && !known->contains("dataset"))
+  {
+    known->update({ { "breach", true }, { "dataset", utf8FromBytes(name) }, { "tolerance", row["tolerance"] } });
+  }
+  if (row.contains("largest") && !(*known)["largest"].is_null()) // null: a residual that is no number
+  {
+    const bool larger = row["largest"].is_null() || row["largest"] > (*known)["largest"];
+    (*known)["largest"] = larger ? row["largest"] : (*known)["largest"];
+  }
+}
+
+/// What verifications of all datasets of a folder say together.
+ReportJson verificationsIn(const JsonCursor& root, const std::string& folder)
+{
+  ReportJson all{ { "passed", true }, { "same", true }, { "residuals", ReportJson::array() },
+    { "unchecked", ReportJson::array() } };
+  std::vector<std::string> names = sceneFoldersIn(folder);
+  for (std::size_t i = 0; i < root.memberCount(); ++i)
+  {
+    const auto known = std::find(names.begin(), names.end(), root.key(i));
+    const bool here = known != names.end();
+    const ReportJson one = verificationIn(root.member(i), here ? folder + '/' + root.key(i) : folder);
+    all["passed"] = all["passed"] && one["passed"];
+    all["same"] = !here ? ReportJson(false) : one["same"] == true ? all["same"] : one["same"];
+    for (const ReportJson& row : one["residuals"])
+    {
+      addRow(all["residuals"], row, "check", "layer", root.key(i));
+    }
+    for (const ReportJson& row : one["unchecked"])
+    {
+      addRow(all["unchecked"], row, "layer", "format", root.key(i));
+    }
+    names.erase(here ? known : names.end(), here ? known + 1 : names.end());
+  }
+  all["same"] = names.empty() ? all["same"] : ReportJson(false); // a dataset of which nothing is said
+  return all;
+}
 } // namespace
 
 ReportJson verificationOf(const ReportRequest& request)
@@ -133,14 +205,8 @@ ReportJson verificationOf(const ReportRequest& request)
   }
   const JsonDocument document = parseJson(path, readFile(path, largestDocument));
   const JsonCursor root(document);
-  if (!root.has("format") || root["format"].node().text != "DGTk verification")
-  {
-    root.fail("is not what a verification of a dataset says");
-  }
-  const std::string hash = root.has("dataset_manifest") ? root["dataset_manifest"].text() : "";
-  return { { "passed", root["passed"].boolean() }, { "same", isOf(request.dataset, hash) },
-    { "residuals", rowsOf(root["residuals"]) },
-    { "unchecked", root.has("not_checked") ? rowsOf(root["not_checked"]) : ReportJson::array() } };
+  const bool many = !root.has("format") && !sceneFoldersIn(request.dataset).empty();
+  return many ? verificationsIn(root, request.dataset) : verificationIn(root, request.dataset);
 }
 
 ReportJson exportsOf(const ReportRequest& request)

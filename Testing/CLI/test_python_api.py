@@ -6,6 +6,7 @@ import inspect
 import json
 import math
 import os
+import pathlib
 import pickle
 import shutil
 import subprocess
@@ -57,6 +58,10 @@ class Samples(Case):
                            (lambda: dgtk.sample(self.SCENE, 0, seed=numpy.True_), "seed: "), (lambda: dgtk.random(2.0, 0, "a"), "seed: "),
                            (lambda: dgtk.sample("a.json", 0, folder="."), "folder: "), (lambda: dgtk.random(0, -1, "a"), "sample: "),
                            (lambda: dgtk.random(0, 0, ""), "path: "), (lambda: dgtk.random(0, 0, "a", -1), "draw: "), (lambda: dgtk.sample(3, 0), "scene: ")):
+            with self.assertRaisesRegex(ValueError, says):
+                call()
+        for call, says in ((lambda: dgtk.random(0, 2**31, "a"), r"^sample: expected an integer from 0 to 2\*\*31 - 1, found 2147483648$"),
+                           (lambda: dgtk.random(0, 0, "a\0b"), "^path: expected a text without a character 0, ")):
             with self.assertRaisesRegex(ValueError, says):
                 call()
         with self.assertRaisesRegex(ValueError, "makes the scene random"):
@@ -111,6 +116,10 @@ class Scenes(Case):
             dgtk.scene(square())
         self.assertEqual(dgtk.scene(square(), folder="/").folder, "/")
         self.assertEqual(len(dgtk.load(DEMO).cameras), 2)
+
+    def test_paths_and_ranges_of_python(self):
+        made = dgtk.scene({"objects": [{"model": pathlib.Path(SCENES).parent / "Models" / "floor.ac", "position": range(3)}]})
+        self.assertEqual(made.description()["objects"][0]["position"], [0, 1, 2])
 
     def test_numbers_of_numpy(self):
         plain, numbers = square(), square()
@@ -298,6 +307,8 @@ class Datasets(ManyCase):
         seen = []
         manifest = dgtk.generate(self.path("scenes"), self.path("python"), progress=lambda *state: seen.append(state), **wanted)
         self.assertEqual(digests(self.path("command")), digests(self.path("python")))
+        with self.assertRaisesRegex(ValueError, "python: holds 2 datasets .expected one of them, such as 'a'."):
+            dgtk.dataset(self.path("python"))
         self.assertEqual([one["path"] for one in manifest["datasets"]], ["a/manifest.json", "b/manifest.json"])
         self.assertEqual((seen[0], seen[-1]), ((0, 2), (2, 2)))
 
@@ -476,7 +487,7 @@ class Stubs(Case):
             bases = [base.value.id.lower() if isinstance(base, ast.Subscript) else base.id for base in node.bases]  # Dict[...] is dict
             self.assertEqual(bases, [base.__name__ for base in kind.__bases__ if base is not object])
             methods = {function.name: function for function in self.named(ast.FunctionDef, node)}
-            self.assertEqual(set(methods), {name for name in vars(kind) if not name.startswith("_")} - OF_VTK)
+            self.assertEqual({name for name in methods if not name.startswith("__")}, {name for name in vars(kind) if not name.startswith("_")} - OF_VTK)
             for name, function in methods.items():
                 thing = vars(kind)[name]
                 if isinstance(thing, (property, functools.cached_property)):

@@ -107,8 +107,11 @@ class Datasets(Case):
         ray = numpy.linalg.solve(camera["K"], [x + 0.5, y + 0.5, 1])
         numpy.testing.assert_allclose(camera["R"].T @ (ray * depth[y, x] - camera["t"]), position[y, x], rtol=0, atol=1e-12)
         pose = next(one for one in data.poses(1) if one["id"] == 2)
-        self.assertEqual((pose["matrix"].shape, len(data.poses()), data.poses(7)), ((3, 4), len(data.objects), []))
+        self.assertEqual((pose["matrix"].shape, len(data.poses())), ((3, 4), len(data.objects)))
         self.assertEqual(data.camera()["name"], "left")
+        self.assertEqual(os.fspath(data), data.folder)
+        with self.assertRaisesRegex(ValueError, "gltf: the dataset has no model of object"):
+            dgtk.export(data, "gltf", self.path("model"))  # it stands for its folder
 
     def test_threads_and_processes_share_it(self):
         self.generated()
@@ -141,6 +144,7 @@ class Datasets(Case):
                             (lambda: data.read("depth", "middle"), "the dataset has no camera 'middle' .it has left,right."),
                             (lambda: data.read("depth", "left", 7), "the dataset has no picture of camera 'left' at frame 7"),
                             (lambda: data.camera("left", 7), "the dataset has no picture of camera 'left' at frame 7"),
+                            (lambda: data.poses(7), "the dataset has no picture at frame 7"),
                             (lambda: data.read("depth", frame="x"), "frame: expected an integer, found 'x'"),
                             (lambda: data.read([]), "layers: expected a name or a list of names")):
             with self.assertRaisesRegex(ValueError, says):

@@ -294,6 +294,37 @@ class Report(ManyCase):
         self.assertEqual(model["seen"]["objects"][0]["scenes"], 2)
         self.assertEqual(model_of(self.report(self.path("scenes"), "--pictures", "1", name="scenes/page.html"))["dataset"]["scenes"], 2)  # the numbers are of more than what is shown
 
+    def test_a_verification_of_a_folder_of_datasets(self):
+        scene = load_json(os.path.join(SCENES, "demo.json"))
+        os.mkdir(self.path("of"))
+        for name in ("a", "b"):
+            self.write(f"of/{name}.json", json.dumps({**scene, "objects": [{**one, "model": os.path.join(SCENES, one["model"])} for one in scene["objects"]]}))
+        folder = self.path("many")
+        self.dgtk("render", self.path("of"), "-o", folder, "--layers", "depth,color", "--frames", "0", "--size", "32x24", "--quiet")
+        said = json.loads(self.dgtk("verify", folder, "--json").stdout)
+
+        def shown(**changes):
+            file = self.write("verification.json", json.dumps({**said, **changes}))
+            return model_of(self.report(folder, "--verification", file))["verification"]
+
+        def counts(rows):
+            return {(row["check"], row["layer"]): row["count"] for row in rows}
+        sound = shown()
+        self.assertEqual((sound["passed"], sound["same"]), (True, True))
+        one, other = counts(said["a"]["residuals"]), counts(said["b"]["residuals"])
+        self.assertEqual(counts(sound["residuals"]), {key: one[key] + other[key] for key in one})
+        self.assertEqual(sound["unchecked"], [{**row, "files": 2 * row["files"]} for row in said["a"]["not_checked"]])
+        broken = json.loads(json.dumps(said["b"]))
+        broken["passed"] = False
+        broken["residuals"][3].update(breach=True, largest=7.0)
+        breach = shown(b=broken)
+        self.assertEqual((breach["passed"], breach["same"]), (False, True))
+        self.assertEqual([(row["largest"], row["dataset"]) for row in breach["residuals"] if row["breach"]], [(7.0, "b")])
+        del said["b"]
+        self.assertFalse(shown()["same"])
+        self.assertFalse(shown(b={**broken, "dataset_manifest": "0" * 64})["same"])
+        self.assertFalse(shown(b=broken, c=broken)["same"])
+
     def test_documents_beside(self):
         folder = self.render(layers="color,depth,objects,classes,boxes,amodal", more=("--frames", "0"))
         self.dgtk("verify", folder, "--write")

@@ -222,6 +222,7 @@ class Snapshots(unittest.TestCase):
             for name, make in scenes.ALL.items():
                 with self.subTest(scene=name):
                     shot = dgtk.snapshot(make(), SIZE)
+                    self.assertEqual((len(shot.cameras), len(shot.objects), list(shot.frames)), (1, shot.GetNumberOfObjects(), [0]))
                     path = os.path.join(folder, name, "scene.json")
                     os.mkdir(os.path.dirname(path))
                     shot.save(path)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What dgtk has, for type checkers and editors; a test compares it with the package.
 import os
-from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsFloat, SupportsIndex, Tuple, Union, overload
 
 import numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkObject
@@ -16,7 +16,8 @@ __all__ = ["load", "scene", "Scene", "sample", "random", "render", "generate", "
 _Path = Union[str, "os.PathLike[str]"]
 _Size = Union[Tuple[int, int], List[int], numpy.ndarray]
 _Frames = Union[None, SupportsIndex, range, Tuple[int, int], Tuple[int, int, int], List[int], numpy.ndarray]
-_Option = Union[bool, float, str, Sequence[Union[float, str]]]
+_Names = Union[str, Sequence[str], numpy.ndarray]
+_Option = Union[bool, SupportsFloat, SupportsIndex, str, Sequence[Union[SupportsFloat, SupportsIndex, str]], numpy.ndarray]
 
 class dgtkSceneSampler(vtkObject):
     def Load(self, path: Union[str, bytes]) -> bool: ...
@@ -196,8 +197,8 @@ class Scene(dgtkScene):
 
 def load(path: _Path) -> Scene: ...
 def scene(description: Dict[str, Any], folder: Optional[_Path] = None, like: Optional[dgtkScene] = None) -> Scene: ...
-def sample(scene: Union[Dict[str, Any], _Path], number: int, seed: Optional[int] = None, folder: Optional[_Path] = None) -> Dict[str, Any]: ...
-def random(seed: int, sample: int, path: str, draw: int = 0) -> float: ...
+def sample(scene: Union[Dict[str, Any], _Path], number: SupportsIndex, seed: Optional[SupportsIndex] = None, folder: Optional[_Path] = None) -> Dict[str, Any]: ...
+def random(seed: SupportsIndex, sample: SupportsIndex, path: str, draw: SupportsIndex = 0) -> float: ...
 @overload
 def render(
     scene: dgtkScene,
@@ -212,7 +213,7 @@ def render(
 @overload
 def render(
     scene: dgtkScene,
-    layers: Sequence[str],
+    layers: Union[Sequence[str], numpy.ndarray],
     camera: Optional[str] = None,
     frame: Optional[SupportsIndex] = None,
     size: Optional[_Size] = None,
@@ -223,14 +224,14 @@ def render(
 def generate(
     scene: Union[_Path, dgtkScene],
     folder: _Path,
-    layers: Union[None, str, Sequence[str]] = None,
+    layers: Optional[_Names] = None,
     frames: _Frames = None,
-    cameras: Union[None, str, Sequence[str]] = None,
+    cameras: Optional[_Names] = None,
     size: Optional[_Size] = None,
     progress: Optional[Callable[[int, int], object]] = None,
     resume: bool = False,
     replace: bool = False,
-    formats: Union[None, str, Sequence[str]] = None,
+    formats: Optional[_Names] = None,
     classes: Optional[_Path] = None,
     **options: _Option,
 ) -> Dict[str, Any]: ...
@@ -239,7 +240,7 @@ def export(
     dataset: _Path,
     format: str,
     folder: _Path,
-    cameras: Union[None, str, Sequence[str]] = None,
+    cameras: Optional[_Names] = None,
     frames: _Frames = None,
     progress: Optional[Callable[[int, int], object]] = None,
     resume: bool = False,
@@ -248,6 +249,7 @@ def export(
 ) -> Dict[str, Any]: ...
 
 class Dataset:
+    def __fspath__(self) -> str: ...
     @property
     def folder(self) -> str: ...
     @property
@@ -266,12 +268,18 @@ class Dataset:
     def manifest(self) -> Dict[str, Any]: ...
     def camera(self, camera: Optional[str] = None, frame: Optional[SupportsIndex] = None) -> Dict[str, Any]: ...
     def poses(self, frame: Optional[SupportsIndex] = None) -> List[Dict[str, Any]]: ...
-    def read(self, layers: Union[str, Sequence[str]], camera: Optional[str] = None, frame: Optional[SupportsIndex] = None) -> Any: ...
+    def read(self, layers: _Names, camera: Optional[str] = None, frame: Optional[SupportsIndex] = None) -> Any: ...
 
 def dataset(folder: _Path) -> Dataset: ...
 def exporters() -> Dict[str, Tuple[List[str], str]]: ...
 
 class Snapshot(dgtkSnapshot):
+    @property
+    def cameras(self) -> List[str]: ...
+    @property
+    def objects(self) -> List[str]: ...
+    @property
+    def frames(self) -> range: ...
     def save(self, path: _Path) -> None: ...
 
 class Truth(Dict[str, Any]):
@@ -283,7 +291,7 @@ class Truth(Dict[str, Any]):
 def snapshot(view: object, size: Optional[_Size] = None, unsupported: str = "refuse") -> Snapshot: ...
 def truth(
     view: object,
-    layers: Union[str, Sequence[str]],
+    layers: _Names,
     size: Optional[_Size] = None,
     unsupported: str = "refuse",
     **options: _Option,

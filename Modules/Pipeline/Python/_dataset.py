@@ -21,7 +21,7 @@ def _record(one):
 class Dataset:
     """A finished dataset, from `dataset()`.
 
-    It reads what it is asked for, and keeps nothing of it; files that change meanwhile are another dataset. Threads may
+    It reads what it is asked for, stands for its folder where a path does, and keeps nothing of it; files that change meanwhile are another dataset. Threads may
     share it, and forked processes. Pickled, it is its folder.
     """
 
@@ -85,9 +85,12 @@ class Dataset:
     def poses(self, frame=None):
         """The poses of all objects at a frame, as poses.json says them, matrices as arrays: a list of dicts.
 
-        frame: an integer; default: the first. `matrix` is 3 x 4, x_world = matrix (x_object, 1), scene units.
+        frame: an integer; default: the first. `matrix` is 3 x 4, x_world = matrix (x_object, 1), scene units. Raises
+        ValueError for a frame of which there is no picture.
         """
         at = self.frames[0] if frame is None else _check.integer("frame", frame)
+        if at not in self.frames:
+            raise ValueError(f"the dataset has no picture at frame {at}")
         return [_record(pose) for pose in self._poses.get(at, [])]
 
     def read(self, layers, camera=None, frame=None):
@@ -136,6 +139,9 @@ class Dataset:
         for one in self._document("poses.json")["poses"] if there else []:
             poses.setdefault(one["frame"], []).append(one)
         return poses
+
+    def __fspath__(self):
+        return self.folder
 
     def __reduce__(self):
         return dataset, (self.folder,)

@@ -8,6 +8,7 @@ from ._scenes import _plain
 from .dgtkPipeline import dgtkSceneSampler
 
 _SEEDS = 1 << 53
+_NATURAL = range(1 << 31)
 
 
 def _seed(value):
@@ -54,8 +55,7 @@ def random(seed, sample, path, draw=0):
 
     Returns a float. Raises ValueError for arguments out of these ranges.
     """
-    if _check.integer("sample", sample) < 0:
-        _check.fail("sample", "an integer from 0 on", sample)
-    if _check.integer("draw", draw) < 0:
-        _check.fail("draw", "an integer from 0 on", draw)
-    return dgtkSceneSampler.Uniform(_seed(seed), int(sample), _check.text("path", path, "a text"), int(draw))
+    number = _check.integer("sample", sample, _NATURAL, "an integer from 0 to 2**31 - 1")
+    which = _check.integer("draw", draw, _NATURAL, "an integer from 0 to 2**31 - 1")
+    name = _check.text("path", path, "a text without a character 0")
+    return dgtkSceneSampler.Uniform(_seed(seed), number, name, which)

@@ -80,7 +80,7 @@ def scene(description, folder=None, like=None):
     """Makes a scene of a description, and loads its models.
 
     description: a dict as in a .json file (Documentation/Formats/scene.md); NumPy scalars and arrays may stand where
-    numbers and lists do. folder: where its relative paths start, str or path-like; default: the current folder, or that
+    numbers and lists do, and path-like objects where paths do. folder: where its relative paths start, str or path-like; default: the current folder, or that
     of `like`. like: another Scene; models and pictures that it has loaded are not read again, whatever became of their
     files, and what a kept renderer made of them is used again. `like` does not change.
 
@@ -120,7 +120,9 @@ def _plain(value, path, depth=0):
             if not isinstance(key, str):
                 _fail(path, "text", key, "has a key that is none")
         return {key: _plain(one, f"{path}.{key}" if path else key, depth + 1) for key, one in value.items()}
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, (list, tuple, range)):
         return [_plain(one, f"{path}[{i}]", depth + 1) for i, one in enumerate(value)]
     if value is None or isinstance(value, bool):
         return value

@@ -8,6 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from . import _check
 from ._render import render, turn
+from ._scenes import Scene
 from .dgtkFromVTK import dgtkSnapshot
 
 _HOLDERS = ("renderer", "ren_win", "render_window", "window")  # PyVista, vedo, Mayavi's scenes and figures
@@ -17,6 +18,10 @@ _MOST_HOLDERS = 50  # objects that are looked into: some make attributes without
 
 class Snapshot(dgtkSnapshot):
     """What a VTK view showed, frozen; see snapshot()."""
+
+    cameras = Scene.cameras
+    objects = Scene.objects
+    frames = Scene.frames
 
     def save(self, path):
         """Writes the snapshot as a .json scene, with its models as OBJ and their textures in a folder `models` beside it.

@@ -611,7 +611,7 @@ function checks() {
   if (v) {
     parts.push(make('p', {}, 'Verification: ', make('span', { class: v.same && v.passed ? 'good' : 'bad' }, doubt(v) || (v.passed ? '✓ passed' : '✗ a breach')), ` – ${many(v.residuals.length, 'residual')}`));
     parts.push(table('Verification', ['check', 'layer', '#values', '#open', '#largest', '#tolerance', 'unit', ''], v.residuals.map((row) => [row.check ?? '', row.layer ?? '', count(row.count ?? 0), count(row.skipped ?? 0), String(row.largest ?? '–'), String(row.tolerance ?? ''), row.unit ?? '',
-      make('span', { class: row.breach ? 'bad' : 'good' }, row.breach ? 'breach' : 'ok')])));
+      make('span', { class: row.breach ? 'bad' : 'good' }, row.breach ? (row.dataset ? `breach in ${row.dataset}` : 'breach') : 'ok')])));
     if (v.unchecked.length > 0) parts.push(table('Not compared by any check', ['layer', 'format', '#files'], v.unchecked.map((row) => [row.layer ?? '', row.format ?? '', count(row.files ?? 0)])));
   } else {
     parts.push(make('p', { class: 'note' }, 'No verification was given.'));
