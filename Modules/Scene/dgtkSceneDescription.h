@@ -147,7 +147,8 @@ struct ShutterDescription
   double open = 0;    ///< frames relative to the frame, [-1000, 1000]
   double close = 0;   ///< >= open
   int exposures = 16; ///< pictures that are averaged, [1, 65536]
-  bool blurs() const { return this->close > this->open; }
+  /// Whether colour is of another time than the frame's.
+  bool blurs() const { return this->close > this->open || this->open != 0; }
 };
 
 /// Depth of field of a thin lens.

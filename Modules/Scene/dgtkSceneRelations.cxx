@@ -7,6 +7,7 @@
 #include "dgtkText.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -18,6 +19,36 @@ namespace dgtk::scenefile
 
 namespace
 {
+/// Whether a smooth track reaches 0 between a key and the next one where both have the same sign, in a component.
+bool overshootsZero(const Track<Eigen::Vector3d>& track, std::size_t key)
+{
+  const double from = track.keys[key].frame;
+  const double length = track.keys[key + 1].frame - from;
+  std::array<Eigen::Vector3d, 4> p; // of a cubic in u, at 0, 1/3, 2/3 and 1
+  for (int i = 0; i < 4; ++i)
+  {
+    p[std::size_t(i)] = i < 3 ? track.at(from + length * i / 3) : track.keys[key + 1].value;
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const double a = (-11 * p[0][i] + 18 * p[1][i] - 9 * p[2][i] + 2 * p[3][i]) / 2;
+    const double b = (18 * p[0][i] - 45 * p[1][i] + 36 * p[2][i] - 9 * p[3][i]) / 2;
+    const double c = (-9 * p[0][i] + 27 * p[1][i] - 27 * p[2][i] + 9 * p[3][i]) / 2;
+    const double root = std::sqrt(std::max(b * b - 3 * a * c, 0.0));
+    // The zeros of a + 2 b u + 3 c u^2, in the form that does not divide by what may be 0.
+    const double sum = -(b + std::copysign(root, b));
+    for (const double u : { sum / (3 * c), a / sum })
+    {
+      const double value = p[0][i] + (a + (b + c * u) * u) * u;
+      if (u > 0 && u < 1 && p[0][i] * p[3][i] > 0 && value * p[0][i] <= 0)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 using Kind = SceneItem::Kind;
 
 class Relations
@@ -199,7 +230,7 @@ private:
     }
   }
 
-  /// Between keys of different sign a scale may be 0 at a frame.
+  /// Between keys of different sign a scale may be 0 at a frame; between keys of one sign it must keep it.
   void checkScale(std::size_t i) const
   {
     const Track<Eigen::Vector3d>& scale = this->Scene.objects[i].scale;
@@ -217,6 +248,12 @@ private:
           this->fail(
             Kind::Object, i, "scale", "passes through 0 at frame " + std::to_string(frame), "another interpolation");
         }
+      }
+      if (how == Interpolation::Smooth && overshootsZero(scale, k - 1))
+      {
+        this->fail(Kind::Object, i, "scale",
+          "passes through 0 between frames " + std::to_string(from.frame) + " and " + std::to_string(to.frame),
+          "another interpolation");
       }
     }
   }
@@ -282,8 +319,8 @@ private:
     }
     if ((camera.width == 0) != (camera.height == 0))
     {
-      this->fail(
-        Kind::Camera, i, camera.width == 0 ? "width" : "height", "is missing or 0", "both width and height, or neither");
+      this->fail(Kind::Camera, i, camera.width == 0 ? "width" : "height", "is missing or 0",
+        "both width and height, or neither");
     }
     if (camera.K && camera.width == 0)
     {

@@ -415,22 +415,16 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
 
 std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, int height) const
 {
-  std::vector<Exposure> all{ { double(frame), this->view(index, frame, width, height) } };
+  std::vector<Exposure> all;
   const CameraDescription& camera = this->Self->Scene.cameras[index];
-  const bool moves = camera.shutter.blurs();
+  const ShutterDescription& shutter = camera.shutter;
   const bool blurs = camera.lens.blurs();
-  if (!moves && !blurs)
-  {
-    return all;
-  }
-  const int count = std::max(moves ? camera.shutter.exposures : 1, blurs ? camera.lens.exposures : 1);
+  const int count = std::max(shutter.close > shutter.open ? shutter.exposures : 1, blurs ? camera.lens.exposures : 1);
   const std::vector<Eigen::Vector2d> points = blurs ? lensPoints(count) : std::vector<Eigen::Vector2d>();
-  all.clear();
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count && camera.blurs(); ++i)
   {
     Exposure one;
-    one.frame =
-      frame + (moves ? camera.shutter.open + (i + 0.5) / count * (camera.shutter.close - camera.shutter.open) : 0.0);
+    one.frame = frame + (shutter.open + (i + 0.5) / count * (shutter.close - shutter.open));
     one.view = this->view(index, one.frame, width, height);
     if (blurs)
     {

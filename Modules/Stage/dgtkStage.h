@@ -64,9 +64,10 @@ public:
   /// InputError where the pose is undefined (eye = look-at).
   View view(std::size_t camera, double frame, int width = 0, int height = 0) const;
 
-  /// The exposures of a frame, one for a camera without shutter and lens: that of view(). Exposure i of N is at the
-  /// frame plus open + (i + 1/2) / N (close - open). Points of the lens follow Vogel's spiral (1979), in bit-reversed
-  /// order, so that time and lens are independent; the plane in focus stays where it is in the image.
+  /// The exposures of a frame, none for a camera without shutter and lens, whose colour is that of view(). Exposure i
+  /// of N, which is 1 where all would be the same, is at the frame plus open + (i + 1/2) / N (close - open). Points of
+  /// the lens follow Vogel's spiral (1979), in bit-reversed order, so that time and lens are independent; the plane in
+  /// focus stays where it is in the image.
   std::vector<Exposure> exposures(std::size_t camera, int frame, int width = 0, int height = 0) const;
 
   std::vector<std::string> cameraNames() const;

@@ -90,6 +90,27 @@ class ImageFormation(ManyCase):
         self.assertEqual(blurred["c/objects/000005.ppm"], unblurred["c/objects/000005.ppm"])
         self.assertEqual(blurred["c/color_sharp/000005.png"], unblurred["c/color/000005.png"])
 
+    def test_one_exposure_is_a_picture_of_its_time(self):
+        """A shutter of one instant, or a lens of one point, is drawn as such, with its sharp picture beside it."""
+        self.write("quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        camera = {"name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0], "width": 40, "height": 30}
+        moving = {"model": "quad.obj", "position": {"keys": [[0, [-2, 0, 0]], [4, [2, 0, 0]]]}}
+
+        def drawn(**parts):
+            scene = self.write("one.json", json.dumps({"objects": [moving], "cameras": [{**camera, **parts}]}))
+            layers = ["color", "color_sharp"] if parts else ["color"]
+            self.dgtk("render", scene, "-o", self.path("one"), "--layers", ",".join(layers), "--frames", "1:2", "--quiet", "--replace")
+            return [[pictures.read_png(self.path("one", "c", layer, f"00000{frame}.png")) for frame in (1, 2)] for layer in layers]
+        [[first, second]] = drawn()
+        self.assertFalse(np.array_equal(first, second))
+        for shutter in ({"open": 1, "close": 1}, {"open": 0.5, "close": 1.5, "exposures": 1}):
+            later, sharp = drawn(shutter=shutter)
+            np.testing.assert_allclose(later[0].astype(int), second, atol=1)
+            np.testing.assert_array_equal(sharp, [first, second])
+        pinhole, sharp = drawn(lens={"aperture": 1e-9, "exposures": 1})
+        np.testing.assert_allclose(np.array(pinhole).astype(int), [first, second], atol=1)
+        np.testing.assert_array_equal(sharp, [first, second])
+
     def test_a_disc_in_motion_keeps_its_light(self):
         """The profile of a disc: the mean over time of the chord; and the sum of light is kept."""
         speed, radius, unit, width = 24.0, 20.0, 0.1, 120

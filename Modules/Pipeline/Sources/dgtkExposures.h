@@ -29,7 +29,7 @@ public:
   }
   void set(std::vector<Exposure> exposures, StateAt stateAt);
   /// Whether colour is other than that of the frame's own instant and pinhole.
-  bool blurs() const { return this->Exposures.size() > 1; }
+  bool blurs() const { return !this->Exposures.empty(); }
   /// Leaves the source with another scene.
   void draw(const PixelRect& rect, int samples, ColorBuffer& colors);
 

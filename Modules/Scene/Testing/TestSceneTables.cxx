@@ -327,6 +327,24 @@ TEST(SceneTables, ScalesThatPassThroughZeroAtAnyFrameBetween)
     refusalOf("a.json",
       sceneWith("object", "\"scale\": {\"interpolation\": \"smooth\", \"keys\": [[0, 9], [2, 1], [4, 1], [6, 9]]}")),
     HasSubstr("scale passes through 0 at frame 3"));
+  // between whole frames, and to and fro between them, where both keys have one sign
+  for (const char* keys : { "[[0, 1], [10, 0.1], [20, 0.1], [30, 4]]", "[[0, 4], [10, 0.1], [20, 0.1], [30, 1]]",
+         "[[0, -1], [10, -0.1], [20, -0.1], [30, -4]]",
+         "[[0, 9], [10, [1, 1, 0.1]], [11, [1, 1, 0.1]], [12, [1, 1, 9]]]" })
+  {
+    EXPECT_THAT(
+      refusalOf("a.json",
+        sceneWith("object", std::string("\"scale\": {\"interpolation\": \"smooth\", \"keys\": ") + keys + "}")),
+      HasSubstr("scale passes through 0 between frames 10 and "));
+  }
+  for (const char* keys : { "[[0, 1], [10, 0.2], [20, 0.2], [30, 1]]", "[[0, 1], [10, 0.1], [20, 4]]",
+         "[[0, 2], [9, 2]]", "[[0, -1], [10, 1], [20, 3]]", "[[0, 1], [3, 2], [6, 3]]" })
+  {
+    EXPECT_EQ(refusalOf("a.json",
+                sceneWith("object", std::string("\"scale\": {\"interpolation\": \"smooth\", \"keys\": ") + keys + "}")),
+      "")
+      << keys;
+  }
   EXPECT_EQ(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -1], [7, 2]]}")), "");
   EXPECT_EQ(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -1], [4, 1]]}")), "");
 }

@@ -182,6 +182,21 @@ TEST(Stage, ExposuresAreInTheMiddleOfTheirPartsOfTheShutter)
   }
 }
 
+TEST(Stage, AShutterOfOneInstantIsOneExposureAtIt)
+{
+  const ModelFolder folder;
+  const std::string camera = R"({"cameras": [{"eye": [0, 0, 0], "lookAt": [0, 0, -9])";
+  for (const auto& [parts, frame] : { std::pair<std::string, double>(R"("shutter": {"open": 0.5, "close": 0.5})", 3.5),
+         { R"("shutter": {"open": -1, "close": -1, "exposures": 1})", 2 },
+         { R"("lens": {"aperture": 1, "exposures": 1})", 3 } })
+  {
+    const std::vector<Exposure> exposures = folder.load(camera + ", " + parts + "}]}")->exposures(0, 3, 8, 8);
+    ASSERT_EQ(exposures.size(), 1u) << parts;
+    EXPECT_EQ(exposures[0].frame, frame);
+  }
+  EXPECT_TRUE(folder.load(camera + R"(, "shutter": {"exposures": 7}}]})")->exposures(0, 3, 8, 8).empty());
+}
+
 TEST(Stage, ExposuresOfALensAreSpreadOverItAndMeetInTheFocus)
 {
   const ModelFolder folder;
