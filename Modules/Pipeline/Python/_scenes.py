@@ -11,6 +11,7 @@ from . import _check
 from .dgtkPipeline import dgtkScene
 
 _DEEPEST = 32
+_LONGEST = 1_000_000  # of a range: it has its numbers for nothing, a list has paid for them
 
 
 def _folder(scene_):
@@ -69,8 +70,8 @@ def load(path):
 
     path: a .json or .scene file, str or path-like.
 
-    Returns a Scene; textures that are missing are warnings. Raises ValueError, one line with file, line and what is wrong, for a file that cannot be used, and
-    RuntimeError for what the machine cannot do (memory).
+    Returns a Scene; textures that are missing are warnings. Raises ValueError, one line with file, line and what is
+    wrong, for a file that cannot be used, and RuntimeError for what the machine cannot do (memory).
     """
     loaded = Scene()
     return _loaded(loaded, loaded.Load(_check.path("path", path)))
@@ -80,16 +81,17 @@ def scene(description, folder=None, like=None):
     """Makes a scene of a description, and loads its models.
 
     description: a dict as in a .json file (Documentation/Formats/scene.md); NumPy scalars and arrays may stand where
-    numbers and lists do, and path-like objects where paths do. folder: where its relative paths start, str or path-like; default: the current folder, or that
-    of `like`. like: another Scene; models and pictures that it has loaded are not read again, whatever became of their
-    files, and what a kept renderer made of them is used again. `like` does not change.
+    numbers and lists do, and path-like objects where paths do. folder: where its relative paths start, str or path-like;
+    default: the current folder, or that of `like`. like: another Scene; models and pictures that it has loaded are not
+    read again, whatever became of their files, and what a kept renderer made of them is used again. `like` does not change.
 
         more = scene.description()
         more["objects"][0]["position"] = [0, 2, 0]
         moved = dgtk.scene(more, like=scene)
 
-    Returns a Scene; textures that are missing are warnings. Raises ValueError, one line that names the value ("scene: objects[2].position[1] has the wrong type
-    (expected a number from -1e15 to 1e15, found 'far')"), and RuntimeError for what the machine cannot do.
+    Returns a Scene; textures that are missing are warnings. Raises ValueError, one line that names the value ("scene:
+    objects[2].position[1] has the wrong type (expected a number from -1e15 to 1e15, found 'far')"), and RuntimeError for
+    what the machine cannot do.
     """
     if not isinstance(description, dict):
         _check.fail("description", "a dict", description)
@@ -122,6 +124,8 @@ def _plain(value, path, depth=0):
         return {key: _plain(one, f"{path}.{key}" if path else key, depth + 1) for key, one in value.items()}
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
+    if isinstance(value, range) and value[_LONGEST:]:
+        _fail(path, f"at most {_LONGEST} numbers", value, "is too long")
     if isinstance(value, (list, tuple, range)):
         return [_plain(one, f"{path}[{i}]", depth + 1) for i, one in enumerate(value)]
     if value is None or isinstance(value, bool):
