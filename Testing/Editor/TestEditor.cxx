@@ -77,7 +77,7 @@ void TestEditor::clicksSelectAndDragsMove()
   QTest::mousePress(front, Qt::LeftButton, {}, middle);
   for (int step = 10; step <= 60; step += 10)
   {
-    QTest::mouseMove(front, middle + QPoint(step, -step / 2));
+    moveMouse(front, middle + QPoint(step, -step / 2), Qt::LeftButton);
     QTest::qWait(20);
   }
   QTest::mouseRelease(front, Qt::LeftButton, {}, middle + QPoint(60, -30));

@@ -6,7 +6,6 @@
 #include <QDialog>
 #include <QElapsedTimer>
 #include <QLineEdit>
-#include <QMouseEvent>
 #include <QPushButton>
 #include <QSpinBox>
 
@@ -53,9 +52,7 @@ TestEditorBeside::Answers TestEditorBeside::stir(int milliseconds, const std::fu
     QTest::mousePress(view, Qt::LeftButton, {}, QPoint(8, 8));
     for (int step = 1; step < 4; ++step)
     {
-      const QPoint at(8 + 9 * step, 8 + 4 * step);
-      QMouseEvent move(QEvent::MouseMove, at, view->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
-      QApplication::sendEvent(view, &move);
+      moveMouse(view, QPoint(8 + 9 * step, 8 + 4 * step), Qt::LeftButton);
       QCoreApplication::processEvents();
     }
     QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(40, 24));

@@ -9,7 +9,6 @@
 #include <QAbstractScrollArea>
 #include <QAction>
 #include <QElapsedTimer>
-#include <QMouseEvent>
 #include <QOpenGLWidget>
 #include <QTest>
 
@@ -106,9 +105,7 @@ QWidget* TestEditorForest::view(int kind) const
 
 void TestEditorForest::moveTo(int kind, const QPoint& at) const
 {
-  QWidget* const widget = this->view(kind);
-  QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(widget, &event);
+  moveMouse(this->view(kind), at, Qt::LeftButton);
   QCoreApplication::processEvents();
 }
 

@@ -15,7 +15,6 @@
 #include <QDialog>
 #include <QImage>
 #include <QLineEdit>
-#include <QMouseEvent>
 #include <QStatusBar>
 #include <QTest>
 
@@ -89,9 +88,7 @@ void TestEditorHandles::press(int kind, const QPoint& at) const
 
 void TestEditorHandles::move(int kind, const QPoint& at, Qt::KeyboardModifiers modifiers) const
 {
-  QWidget* const widget = this->view(kind);
-  QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, modifiers);
-  QApplication::sendEvent(widget, &event);
+  moveMouse(this->view(kind), at, Qt::LeftButton, modifiers);
   QCoreApplication::processEvents();
 }
 

@@ -269,8 +269,8 @@ void TestEditorTruth::panesZoomAndPan()
   const double scale = 1 / (imageAt(middle + QPoint(1, 0)) - before).x();
   QVERIFY(scale > 10);
   QTest::mousePress(pane, Qt::LeftButton, {}, middle);
-  QTest::mouseMove(pane, middle + QPoint(30, 0));
-  QTest::mouseMove(pane, middle + QPoint(60, 20));
+  moveMouse(pane, middle + QPoint(30, 0), Qt::LeftButton);
+  moveMouse(pane, middle + QPoint(60, 20), Qt::LeftButton);
   QTest::mouseRelease(pane, Qt::LeftButton, {}, middle + QPoint(60, 20));
   QVERIFY((imageAt(middle + QPoint(60, 20)) - before).manhattanLength() < 1e-9);
   QCOMPARE(textOf(dialog, "match.class"), QString("-")); // a drag picks nothing

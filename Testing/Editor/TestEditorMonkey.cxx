@@ -11,7 +11,6 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QMenuBar>
-#include <QMouseEvent>
 #include <QPointer>
 #include <QPushButton>
 #include <QToolButton>
@@ -68,9 +67,7 @@ void TestEditorMonkey::drag(QWidget* widget)
   QTest::mousePress(widget, button, modifiers, anywhere());
   for (int i = this->below(4); i > 0 && alive; --i)
   {
-    const QPoint at = anywhere();
-    QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button, modifiers);
-    QApplication::sendEvent(widget, &move);
+    moveMouse(widget, anywhere(), button, modifiers);
   }
   if (alive)
   {

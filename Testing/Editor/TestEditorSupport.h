@@ -18,6 +18,7 @@
 #include <QMap>
 #include <QMenu>
 #include <QMessageBox>
+#include <QMouseEvent>
 #include <QPointer>
 #include <QProcess>
 #include <QString>
@@ -53,6 +54,14 @@ constexpr int settle = 150; // milliseconds in which something could happen that
 constexpr int front = 0;
 constexpr int top = 1;
 constexpr int perspective = 3;
+
+/// A motion of the mouse that arrives at once, wherever the display's own pointer is.
+inline void moveMouse(QWidget* widget, const QPoint& at, Qt::MouseButtons buttons = Qt::NoButton,
+  Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+{
+  QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, buttons, modifiers);
+  QCoreApplication::sendEvent(widget, &event);
+}
 
 inline QString demo() { return QString::fromStdString(dgtk::test::sourceFile("Data/Scenes/demo.json")); }
 

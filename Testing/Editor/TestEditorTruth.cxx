@@ -55,8 +55,8 @@ void TestEditorTruth::layersReplaceColourAndFollowTheView()
   QCOMPARE(picture->size(), view->size());
 
   QTest::mousePress(view, Qt::LeftButton, {}, QPoint(5, 5));
-  QTest::mouseMove(view, QPoint(30, 5));
-  QTest::mouseMove(view, QPoint(90, 5));
+  moveMouse(view, QPoint(30, 5), Qt::LeftButton);
+  moveMouse(view, QPoint(90, 5), Qt::LeftButton);
   QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(90, 5));
   QTRY_VERIFY(picture->property("settled").toBool() && picture->grab().toImage() != first);
   const QImage turned = picture->grab().toImage();
@@ -89,7 +89,7 @@ void TestEditorTruth::valuesAreTheDatasets()
   int surfaces = 0;
   for (int i = 1; i < 6; ++i)
   {
-    hover(view, QPoint(view->width() / 2 - 60 + 20 * i, view->height() * i / 6));
+    moveMouse(view, QPoint(view->width() / 2 - 60 + 20 * i, view->height() * i / 6));
     const QString before = valueOf(panel, "Pixel");
     QTRY_VERIFY(valueOf(panel, "Pixel") != before);
     const QStringList words = valueOf(panel, "Pixel").remove(',').split(' '); // column C row R
@@ -133,7 +133,7 @@ void TestEditorTruth::previewLeavesTheViewFree()
   QTest::mousePress(view, Qt::LeftButton, {}, QPoint(40, 30));
   for (const int x : { 60, 80, 100 })
   {
-    QTest::mouseMove(view, QPoint(x, 30));
+    moveMouse(view, QPoint(x, 30), Qt::LeftButton);
   }
   QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(100, 30));
   QVERIFY2(subject->text().isEmpty(), "the drag turned the view");
@@ -287,7 +287,7 @@ void TestEditorTruth::clicksGoThroughThePicture()
   {
     const QPoint at(view->width() * (i % 5 + 1) / 6, view->height() * (i / 5 + 3) / 7);
     const QString before = valueOf(panel, "Pixel");
-    hover(view, at);
+    moveMouse(view, at);
     QTRY_VERIFY(valueOf(panel, "Pixel") != before);
     QTest::mouseClick(view, Qt::LeftButton, {}, at);
     const QList<QTreeWidgetItem*> chosen = tree->selectedItems();
@@ -297,8 +297,8 @@ void TestEditorTruth::clicksGoThroughThePicture()
   }
   QVERIFY(met.size() > 2);
   QTest::mousePress(view, Qt::LeftButton, {}, view->rect().center());
-  QTest::mouseMove(view, view->rect().center() + QPoint(30, 0));
-  QTest::mouseMove(view, view->rect().center() + QPoint(60, 0));
+  moveMouse(view, view->rect().center() + QPoint(30, 0), Qt::LeftButton);
+  moveMouse(view, view->rect().center() + QPoint(60, 0), Qt::LeftButton);
   QTest::mouseRelease(view, Qt::LeftButton, {}, view->rect().center() + QPoint(60, 0));
   QVERIFY2(overlay->isVisible(), "the view's own eye again");
   QCOMPARE(this->Window->document().undoText(), std::string("Wide"));
@@ -311,14 +311,14 @@ void TestEditorTruth::nothingWaitsForPictures()
   this->action("show.alpha")->trigger(); // sixteen rays a pixel
   auto* view = this->Window->findChild<QWidget*>("view.3");
   QTest::mousePress(view, Qt::LeftButton, {}, QPoint(5, 5));
-  QTest::mouseMove(view, QPoint(30, 5));
+  moveMouse(view, QPoint(30, 5), Qt::LeftButton);
   QCoreApplication::processEvents();
   QElapsedTimer clock;
   clock.start();
   for (int step = 1; step <= turns; ++step)
   {
-    QTest::mouseMove(view, QPoint(30 + 5 * step, 5));
-    hover(view, QPoint(100 + step, 100));
+    moveMouse(view, QPoint(30 + 5 * step, 5), Qt::LeftButton);
+    moveMouse(view, QPoint(100 + step, 100));
     QCoreApplication::processEvents();
   }
   const qint64 mean = clock.elapsed() / turns;
@@ -344,7 +344,7 @@ void TestEditorTruth::theSceneMayChangeMeanwhile()
     const dgtk::SceneItem object{ dgtk::SceneItem::Kind::Object, std::size_t(i) % 5 };
     document.editItem("Move", object,
       [&](dgtk::SceneDescription& scene) { scene.objects[object.index].position = Eigen::Vector3d(i, 0, -i); });
-    hover(view, QPoint(3 * i, 2 * i));
+    moveMouse(view, QPoint(3 * i, 2 * i));
     QTest::mouseClick(pane, Qt::LeftButton, {}, pane->rect().center() + QPoint(i, i));
     frame->setValue(i % 3);
     if (i % 7 == 0)
@@ -386,7 +386,7 @@ void TestEditorTruth::pictures()
   this->action("maximize")->trigger();
   auto* view = this->Window->findChild<QWidget*>("view.3");
   QTest::qWait(settle);
-  hover(view, view->rect().center() + QPoint(-30, 20));
+  moveMouse(view, view->rect().center() + QPoint(-30, 20));
   QTRY_VERIFY(view->findChild<QWidget*>("truthPicture")->property("settled").toBool());
   grab(this->Window.get(), "editor_truth.png");
   this->action("show.colour")->trigger();

@@ -145,7 +145,7 @@ void TestEditorTruth::germanIsSpokenOfTheTruth()
   this->action("show.flow_forward")->trigger();
   auto* view = this->Window->findChild<QWidget*>("view.3");
   auto* panel = this->Window->findChild<QTreeWidget*>("truthPanel");
-  hover(view, view->rect().center());
+  moveMouse(view, view->rect().center());
   QTRY_VERIFY(valueOf(panel, "flow forward,").contains('\n'));
   QVERIFY(panel->findItems("flow forward,\nPixel", Qt::MatchExactly).size() == 1);
 

@@ -5,7 +5,6 @@
 #include "EditorTest.h"
 
 #include <QCoreApplication>
-#include <QMouseEvent>
 #include <QWidget>
 
 class QMainWindow;
@@ -13,13 +12,6 @@ class QMainWindow;
 namespace dgtk
 {
 class DatasetViewer;
-}
-
-/// A motion of the mouse that arrives at once, wherever the display's own pointer is.
-inline void moveMouse(QWidget* widget, const QPoint& at, Qt::MouseButtons buttons = Qt::NoButton)
-{
-  QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, buttons, Qt::NoModifier);
-  QCoreApplication::sendEvent(widget, &event);
 }
 
 /// The pixel that the viewer says is under the crosshair; (-1, -1) for none.

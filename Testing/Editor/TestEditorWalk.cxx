@@ -15,7 +15,6 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMouseEvent>
 #include <QPushButton>
 #include <QTreeWidget>
 
@@ -102,9 +101,7 @@ void TestEditorWalk::drag(int kind, const QPoint& from, const QPoint& to) const
   QTest::mousePress(widget, Qt::LeftButton, {}, from);
   for (int step = 1; step <= 6; ++step)
   {
-    const QPoint at = from + (to - from) * step / 6;
-    QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(widget, &event);
+    moveMouse(widget, from + (to - from) * step / 6, Qt::LeftButton);
     QCoreApplication::processEvents();
   }
   QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
