@@ -121,7 +121,7 @@ class Scenes(Case):
         made = dgtk.scene({"objects": [{"model": pathlib.Path(SCENES).parent / "Models" / "floor.ac", "position": range(3)}]})
         self.assertEqual(made.description()["objects"][0]["position"], [0, 1, 2])
         for long in (range(10**9), range(10**30)):  # costs nothing, and as a list all memory
-            with self.assertRaisesRegex(ValueError, r"scene: objects is too long .expected at most 1000000 numbers, found range"):
+            with self.assertRaisesRegex(ValueError, r"scene: objects is too long .expected at most 1000000 numbers, found an object of range"):
                 dgtk.scene({"objects": long})
 
     def test_numbers_of_numpy(self):

@@ -337,8 +337,8 @@ TEST(SceneTables, ScalesThatPassThroughZeroAtAnyFrameBetween)
         sceneWith("object", std::string("\"scale\": {\"interpolation\": \"smooth\", \"keys\": ") + keys + "}")),
       HasSubstr("scale passes through 0 between frames 10 and "));
   }
-  for (const char* keys : { "[[0, 1], [10, 0.2], [20, 0.2], [30, 1]]", "[[0, 1], [10, 0.1], [20, 4]]",
-         "[[0, 2], [9, 2]]", "[[0, -1], [10, 1], [20, 3]]", "[[0, 1], [3, 2], [6, 3]]" })
+  for (const char* keys : { "[[0, 1], [10, 0.2], [20, 0.2], [30, 1]]", "[[0, 1], [10, 0.5], [20, 4]]",
+         "[[0, 2], [9, 2]]", "[[0, -1], [10, 2], [20, 5]]", "[[0, 1], [3, 2], [6, 3]]" })
   {
     EXPECT_EQ(refusalOf("a.json",
                 sceneWith("object", std::string("\"scale\": {\"interpolation\": \"smooth\", \"keys\": ") + keys + "}")),
