@@ -5,7 +5,6 @@
 #include <chrono>
 #include <thread>
 
-#include <cxxabi.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -60,9 +59,10 @@ InterpreterPause::~InterpreterPause()
     {
       PyEval_RestoreThread(this->Thread);
     }
-    catch (const abi::__forced_unwind&)
+    catch (...)
     {
       // An interpreter that ends would end the thread, through objects that may not be left: it stops here instead.
+      // What is caught is abi::__forced_unwind, but there is no object of it that could be named.
       for (;;)
       {
         ::pause();
