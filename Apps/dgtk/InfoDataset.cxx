@@ -4,6 +4,7 @@
 
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
+#include "dgtkFolder.h"
 #include "dgtkFolderContents.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkRunParts.h"
@@ -12,7 +13,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <map>
 #include <set>
 
@@ -86,10 +86,10 @@ Json infoOfDataset(const std::string& folder)
       { "unit", layer.spec.unit }, { "files", files[layer.spec.name] } });
   }
   info["classes"] = Json::array();
-  const std::string objects = folder + "/objects.json";
-  std::error_code code;
+  const char* const objects = "objects.json";
+  const Folder root(folder);
   for (const ClassRecord& one :
-    std::filesystem::exists(objects, code) ? readClasses(objects) : std::vector<ClassRecord>())
+    root.look(objects) == EntryKind::Nothing ? std::vector<ClassRecord>() : readClasses(root.fileAt(objects)))
   {
     info["classes"].push_back({ { "id", one.id }, { "name", one.name } });
   }

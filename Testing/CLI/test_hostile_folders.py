@@ -132,6 +132,24 @@ class HostileFolders(ManyCase):
         self.refused("verify", self.data, status=3, says="through a link")
         self.refused("compare", self.data, self.path("whole"), status=3, says="through a link")
 
+    def test_documents_through_links(self):
+        os.mkdir(self.path("elsewhere"))
+        for document in ("manifest.json", "objects.json", "cameras.json"):
+            self.fresh()
+            shutil.move(os.path.join(self.data, document), self.path("elsewhere", document))
+            self.link(document, self.path("elsewhere", document))
+            for command in ("info", "verify", "report"):
+                if (command, document) != ("info", "cameras.json"):  # which it does not look at
+                    with self.subTest(command=command, document=document):
+                        more = ("-o", self.path("report.html")) if command == "report" else ()
+                        self.refused(command, self.data, *more, status=3, says=f"{document}: is not read through a link")
+        samples = self.path("samples")
+        random_scene = self.write("random.json", json.dumps({"lights": [{"name": "sun", "intensity": {"uniform": [2, 4]}}]}))
+        self.dgtk("sample", random_scene, "-o", samples, "--samples", "1:1", "--quiet")
+        shutil.move(os.path.join(samples, "samples.json"), self.path("elsewhere", "samples.json"))
+        os.symlink(self.path("elsewhere", "samples.json"), os.path.join(samples, "samples.json"))
+        self.refused("verify", samples, status=3, says="samples.json: is not read through a link")
+
     def test_hard_links_are_replaced(self):
         for name in ("left/depth/000000.npy", "left/depth/000000.npy.partial", ".dgtk-journal.partial", "manifest.json.partial"):
             with self.subTest(name):

@@ -115,7 +115,7 @@ public:
 
   VerificationReport run()
   {
-    const std::string path = this->Folder + '/' + recordName;
+    const std::string path = dgtk::Folder(this->Folder).fileAt(recordName);
     const Json record = readJsonFile(path);
     useJson(path,
       [&]

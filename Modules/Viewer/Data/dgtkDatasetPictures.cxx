@@ -3,6 +3,7 @@
 
 #include "dgtkCryptomatte.h"
 #include "dgtkError.h"
+#include "dgtkFolder.h"
 #include "dgtkFolderContents.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
@@ -150,12 +151,12 @@ bool DatasetPictures::isReplaced() const
 
 void DatasetPictures::readDocuments()
 {
-  const fs::path root(this->Folder);
-  attempt(this->Warnings, [&] { this->Records = readCameras((root / "cameras.json").string()); });
-  attempt(this->Warnings, [&] { this->Objects = readObjects((root / "objects.json").string()); });
+  const dgtk::Folder root(this->Folder);
+  attempt(this->Warnings, [&] { this->Records = readCameras(root.fileAt("cameras.json")); });
+  attempt(this->Warnings, [&] { this->Objects = readObjects(root.fileAt("objects.json")); });
   try
   {
-    SceneDescription scene = readScene((root / "scene.json").string());
+    SceneDescription scene = readScene(root.fileAt("scene.json"));
     this->Up = scene.upAxis;
     this->SceneCameras = std::move(scene.cameras);
   }
