@@ -47,6 +47,10 @@ void ColladaSurvey::lookAt(const Markup& markup)
   {
     this->lookAtNode(markup);
   }
+  else if (markup.begins("animation_clip"))
+  {
+    this->hasClips = true;
+  }
   else if (markup.begins("morph"))
   {
     this->problem = "morph controllers are not read";

@@ -27,6 +27,7 @@ public:
   std::map<std::pair<std::string, std::string>, std::set<int>> bound;
   std::map<std::string, std::set<int>> sets; ///< of texture coordinates, by geometry
   std::set<std::string> channels;            ///< names that effects give such sets and that are bound
+  bool hasClips = false;                     ///< of animations
 
 private:
   struct Binding

@@ -208,6 +208,36 @@ std::string lookat(const std::string& text)
   return written(n);
 }
 
+/// All animations of a library in one, whose channels Assimp 5.2 joins by nodes: it has a sequence, or a channel that
+/// replaces others of its node, of each. Clips name animations, which stay then.
+class OneAnimation
+{
+public:
+  explicit OneAnimation(const ColladaSurvey& survey)
+    : HasClips(survey.hasClips)
+  {
+  }
+
+  std::string tag(const Markup& markup, const std::string& tag)
+  {
+    if (this->HasClips || (!markup.isOf("animation") && !markup.isOf("library_animations")))
+    {
+      return tag;
+    }
+    if (markup.isOf("library_animations"))
+    {
+      return std::exchange(this->IsOpen, false) ? "</animation>" + tag : tag;
+    }
+    const bool isFirst = !this->IsOpen && !markup.isEnd() && !markup.isEmpty();
+    this->IsOpen = this->IsOpen || isFirst;
+    return isFirst ? tag : "";
+  }
+
+private:
+  bool HasClips;
+  bool IsOpen = false;
+};
+
 /// Version 1.5 as 1.4.1, of which Assimp 5.2 reads pictures, and names of files without an element of their own in
 /// both.
 std::string inOldWords(const Markup& markup, const std::string& tag, bool isInInit)
@@ -346,6 +376,7 @@ ColladaText colladaText(const std::string& xml)
   NodeNames nodes(survey);
   Coordinates coordinates(survey);
   Samplers samplers;
+  OneAnimation animations(survey);
   ColladaTurns turns(xml, mark);
   to.warnings.insert(to.warnings.end(), turns.warnings.begin(), turns.warnings.end());
   bool isInInit = false;
@@ -371,7 +402,7 @@ ColladaText colladaText(const std::string& xml)
       else if (!markup.isOf("unit"))
       {
         const std::string tag = inOldWords(markup, withBlack(markup, coordinates.tag(markup)), isInInit);
-        to.text += turns.tag(markup, samplers.tag(xml.substr(begin, end - begin), markup, tag));
+        to.text += animations.tag(markup, turns.tag(markup, samplers.tag(xml.substr(begin, end - begin), markup, tag)));
         // it may be left out, and is 0 in Assimp 5.2; what the skin says comes later, and counts
         to.text += markup.begins("skin") && !markup.isEmpty()
                      ? "<bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>"

@@ -324,6 +324,44 @@ std::string straight(const std::string& id)
 }
 } // namespace
 
+TEST(ColladaMeaning, AnimationsThatNoClipNamesAreOneSequence)
+{
+  // `last` seconds, in which each target goes to 8
+  const auto part = [](const std::string& n, const std::string& last, const std::vector<std::string>& targets)
+  {
+    std::string text = "<animation><animation id='" + n + "'>" + source("i" + n, "float", 2, 1, "0 " + last) +
+                       source("o" + n, "float", 2, 1, "0 8") + source("n" + n, "Name", 2, 1, "LINEAR LINEAR");
+    for (const std::string& target : targets)
+    {
+      const std::string sampler = 'S' + n + target[0];
+      text += "<sampler id='" + sampler + "'><input semantic='INPUT' source='#i" + n +
+              "'/><input semantic='OUTPUT' source='#o" + n + "'/><input semantic='INTERPOLATION' source='#n" + n +
+              "'/></sampler><channel source='#" + sampler + "' target='" + target + "'/>";
+    }
+    return text + "</animation></animation>";
+  };
+  std::string nodes;
+  for (const std::string id : { "a", "b", "c" })
+  {
+    nodes += "<node id='" + id + "'><translate sid='t'>0 0 0</translate>" + instance + "</node>";
+  }
+  const std::string animations = "<library_animations><animation id='none'/>" + part("1", "1", { "a/t.X", "b/t.X" }) +
+                                 part("2", "2", { "a/t.Z" }) + part("3", "4", { "b/t.Y", "c/t.Y" }) +
+                                 "</library_animations>";
+  const auto model = readBytes("dae", dae(nodes, animations));
+  ASSERT_EQ(model->animations.size(), 1u);
+  EXPECT_EQ(model->animations[0].last, 4 * model->animations[0].fps);
+  const auto p = inTheMiddle(*model);
+  ASSERT_EQ(p.size(), 9u);
+  expectClose(p[0], { 4, 0, 2 });
+  expectClose(p[3], { 4, 1, 0 });
+  expectClose(p[6], { 0, 1, 0 });
+  const std::string clips = "<library_animation_clips><animation_clip id='first'><instance_animation url='#1'/>"
+                            "</animation_clip><animation_clip id='other'><instance_animation url='#3'/>"
+                            "</animation_clip></library_animation_clips>";
+  EXPECT_EQ(readBytes("dae", dae(nodes, clips + animations))->animations.size(), 3u); // as they stand
+}
+
 TEST(ColladaMeaning, WhatTurnsAboutAPivotStaysAtItsDistance)
 {
   const std::string nodes = "<node id='n' name='Door'><translate sid='a'>2 0 0</translate>"
