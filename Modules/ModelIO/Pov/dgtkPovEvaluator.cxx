@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkPortableMath.h"
+#include "dgtkPovFunctions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,17 +48,6 @@ PovNumber unknown(const PovPlace& place, const std::string& what)
   return number;
 }
 
-/// A number used as a vector has it in all components.
-std::array<double, 5> promoted(const PovNumber& number, int to)
-{
-  std::array<double, 5> v = number.v;
-  if (number.size == 1)
-  {
-    std::fill(v.begin() + 1, v.begin() + std::max(to, 1), v[0]);
-  }
-  return v;
-}
-
 PovNumber combine(const PovNumber& a, const PovNumber& b, const std::string& operation)
 {
   if (a.unknown || b.unknown)
@@ -71,27 +61,6 @@ PovNumber combine(const PovNumber& a, const PovNumber& b, const std::string& ope
   const std::array<double, 5> right = promoted(b, result.size);
   std::transform(left.begin(), left.begin() + result.size, right.begin(), result.v.begin(), operations.at(operation));
   return result;
-}
-
-/// Rotation by degrees about an axis; exact for quarter turns.
-Eigen::Matrix3d rotation(double degrees, int axis)
-{
-  const double turns = std::remainder(degrees, 360.0) / 90;
-  double c = portable::cos(turns * (pi / 2));
-  double s = portable::sin(turns * (pi / 2));
-  if (turns == std::nearbyint(turns))
-  {
-    c = std::nearbyint(c);
-    s = std::nearbyint(s);
-  }
-  const int y = (axis + 1) % 3;
-  const int z = (axis + 2) % 3;
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
-  matrix(y, y) = c;
-  matrix(y, z) = -s;
-  matrix(z, y) = s;
-  matrix(z, z) = c;
-  return matrix;
 }
 
 } // namespace
@@ -266,6 +235,34 @@ PovNumber PovEvaluator::undeclared(const PovToken& word)
                                                            : "undeclared name " + name);
 }
 
+PovNumber PovEvaluator::call(const PovToken& name, const PovFunction& function)
+{
+  std::vector<PovNumber> arguments;
+  PovNumber value;
+  for (bool isOpen = !this->Stream.accept(')'); isOpen; isOpen = !this->Stream.accept(')'))
+  {
+    if (!arguments.empty())
+    {
+      this->Stream.expect(',', "a function");
+    }
+    arguments.push_back(this->logical());
+    value.unknown = value.unknown ? value.unknown : arguments.back().unknown;
+  }
+  if (arguments.size() < function.fewest || arguments.size() > function.most)
+  {
+    this->Stream.fail(name.place, "function " + quoted(name.text) + " has a wrong number of arguments",
+      std::to_string(function.fewest), std::to_string(arguments.size()));
+  }
+  if (value.unknown)
+  {
+    return value;
+  }
+  value = function.value(arguments);
+  const bool isGood =
+    std::all_of(value.v.begin(), value.v.begin() + value.size, [](double v) { return std::isfinite(v); });
+  return isGood ? value : unknown(name.place, "function " + quoted(name.text) + " has no value here");
+}
+
 PovNumber PovEvaluator::word()
 {
   const PovStream::Level level(this->Stream);
@@ -283,6 +280,10 @@ PovNumber PovEvaluator::word()
   {
     this->component(word, value);
     return this->withComponents(value);
+  }
+  else if (const PovFunction* function = povFunction(word.text); function && this->Stream.accept('('))
+  {
+    return this->call(word, *function);
   }
   else if (constants.count(word.text) > 0)
   {
@@ -433,7 +434,7 @@ bool PovEvaluator::transform(Eigen::Affine3d& total)
     }
     else
     {
-      next.linear() = rotation(v[2], 2) * rotation(v[1], 1) * rotation(v[0], 0);
+      next.linear() = povRotation(v);
     }
   }
   total = next * total;

@@ -2,15 +2,17 @@
 #ifndef dgtkPovEvaluator_h
 #define dgtkPovEvaluator_h
 
+#include "dgtkPovFunctions.h"
 #include "dgtkPovStream.h"
 #include "dgtkPovSymbols.h"
 
 namespace dgtk
 {
 
-/// Constant arithmetic and transforms: literals, declared names, colours, + - * / and, in parentheses, comparisons and
-/// choices. What is no constant (a function, an undeclared name, a division by zero) is a number that is not known, and
-/// says why. Throws InputError for what is no expression.
+/// Constant arithmetic and transforms: literals, declared names, colours, + - * /, POV-Ray's own functions of floats
+/// and vectors and, in parentheses, comparisons and choices. What is no constant (a function of the scene's, an
+/// undeclared name, a division by zero) is a number that is not known, and says why. Throws InputError for what is no
+/// expression.
 class PovEvaluator
 {
 public:
@@ -46,6 +48,8 @@ private:
   PovNumber primary();
   PovNumber vectorLiteral();
   PovNumber word();
+  /// Behind the name and its parenthesis.
+  PovNumber call(const PovToken& name, const PovFunction& function);
   PovNumber undeclared(const PovToken& word);
   PovNumber colorWord(const PovToken& word);
   PovNumber withComponents(PovNumber color);

@@ -339,7 +339,7 @@ TEST(Pov, WhatAMeshDependsOnIsRefusedWithItsPlace)
     ":2: #while is not evaluated, and a mesh depends on it ('triangle', line 2)");
   expectRefusal(
     "#macro M()\n" + oneTriangle + "#end\n\nM()", ":5: macro 'M' is not evaluated, and a mesh depends on it");
-  expectRefusal("triangle { <0,0,0>, <sin(1),0,0>, <0,1,0> }", ":1: function or macro 'sin' is not evaluated");
+  expectRefusal("triangle { <0,0,0>, <wave(1),0,0>, <0,1,0> }", ":1: function or macro 'wave' is not evaluated");
   expectRefusal("mesh { " + oneTriangle + "\n translate Away }", ":3: undeclared name 'Away'");
   expectRefusal("#declare i=0; #while (i<2) #declare i=i+1; #end\nmesh { " + oneTriangle + " translate i*x }",
     ":1: #while is not evaluated, and a mesh depends on it");

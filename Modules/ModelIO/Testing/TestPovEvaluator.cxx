@@ -79,6 +79,48 @@ TEST(PovEvaluator, ColoursAndWhatIsSaidBehindThem)
   }
 }
 
+TEST(PovEvaluator, FunctionsHaveTheValuesThatPovRayHas)
+{
+  const std::pair<const char*, std::vector<double>> table[] = { // as POV-Ray 3.7 writes them with `#debug`
+    { "<pow(-2, 3), pow(2, -1), mod(-5, 3)>", { -8, 0.5, -2 } },
+    { "<mod(5.5, -2), div(-7, 2), int(-2.5)>", { 1.5, -3, -2 } },
+    { "<floor(-2.5), ceil(-2.5), atan2(1, -1)>", { -3, -2, 2.356194490192 } },
+    { "<log(1000), ln(2), exp(1)>", { 3, 0.693147180560, 2.718281828459 } },
+    { "<select(-1, 5, 6), select(0, 5, 6), select(1, 5, 6)>", { 5, 6, 6 } },
+    { "<select(0, 5, 6, 7), select(2, 5, 6, 7), select(-2, 5, 6, 7)>", { 6, 7, 5 } },
+    { "<vlength(2), vdot(<1, 2, 3>, 2), degrees(pi)>", { 3.464101615138, 12, 180 } },
+    { "<acos(-0.5), asin(-0.5), tan(1)>", { 2.094395102393, -0.523598775598, 1.557407724655 } },
+    { "<max(1, 3, 2), min(4, 2, 3), sqrt(2)>", { 3, 2, 1.414213562373 } },
+    { "<pow(0, 1), pow(2, 0.5), radians(90)>", { 0, 1.414213562373, 1.570796326795 } },
+    { "<abs(-2), sin(1), cos(1)>", { 2, 0.841470984808, 0.540302305868 } },
+    { "vaxis_rotate(<1, 2, 3>, <0, 0, 2>, 90)", { -2, 1, 3 } },
+    { "vaxis_rotate(<1, 2, 3>, <1, 1, 0>, 30)", { 2.127647469888, 0.872352530112, 2.951629601947 } },
+    { "vrotate(<1, 2, 3>, <90, 30, 0>)", { 1.866025403784, -3, 1.232050807569 } }, { "2 * vcross(x, y)", { 0, 0, 2 } },
+    { "vnormalize(<3, 0, 4>).z + max(1, V.x)", { 1.8 } }
+  };
+  for (const auto& [text, expected] : table)
+  {
+    const PovNumber found = logical(text);
+    ASSERT_FALSE(found.unknown) << text;
+    ASSERT_EQ(found.size, int(expected.size())) << text;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      EXPECT_NEAR(found.v[i], expected[i], 1e-12) << text;
+    }
+  }
+  for (const char* text : { "sqrt(-1)", "pow(-2, 0.5)", "pow(0, 0)", "ln(0)", "mod(1, 0)", "acos(2)" })
+  {
+    const PovNumber found = logical(text);
+    ASSERT_TRUE(found.unknown) << text;
+    EXPECT_THAT(found.unknown->what, HasSubstr("has no value here")) << text;
+  }
+  EXPECT_EQ(logical("1 + max(2, Lost)").unknown->place.line, 7);
+  EXPECT_THAT(test::thrownBy<InputError>([] { logical("pow(2)"); }),
+    HasSubstr("function 'pow' has a wrong number of arguments (expected 2, found 1)"));
+  EXPECT_THROW(logical("max(1 2)"), InputError);
+  EXPECT_THROW(logical("max()"), InputError);
+}
+
 TEST(PovEvaluator, WhatIsNotKnownSaysWhyAndIsReadToItsEnd)
 {
   const std::pair<const char*, const char*> table[] = {

@@ -90,7 +90,7 @@ TEST(PovTables, Expressions)
 TEST(PovTables, ExpressionsThatAreRefused)
 {
   const std::pair<const char*, const char*> table[] = { { "1/0", "division by zero" }, { "A", "undeclared name 'A'" },
-    { "sin(1)", "function or macro 'sin' is not evaluated" }, { "<1>.x", "vector is too short" },
+    { "wave(1)", "function or macro 'wave' is not evaluated" }, { "<1>.x", "vector is too short" },
     { "<1,2,3,4,5,6>.x", "vector is too long" }, { "<1,2,3>.w", "cannot understand the component of a vector" },
     { "(1 ? 2)", "cannot understand a choice" }, { "*3", "cannot understand a value" },
     { "(1", "cannot understand an expression" } };
