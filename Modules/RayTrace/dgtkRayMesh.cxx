@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace dgtk
 {
@@ -263,6 +264,14 @@ void RayDevice::check() const
   }
 }
 
+void RayDevice::commit(RTCScene& scene) const
+{
+  embree().CommitScene(scene);
+  const RTCScene built = std::exchange(scene, nullptr);
+  this->check();
+  scene = built;
+}
+
 std::shared_ptr<const RayMesh> RayDevice::find(const RayMeshKey& key)
 {
   const std::lock_guard<std::mutex> guard(this->Lock);
@@ -368,8 +377,7 @@ std::shared_ptr<const RayMesh> RayDevice::make(const Instance& instance, const R
   RTCBuffer vertices = makeVertices(*mesh, mesh->baked ? &instance.world_from_object.linear : nullptr);
   attachAll(*mesh, key, vertices);
   embree().ReleaseBuffer(vertices);
-  embree().CommitScene(mesh->scene);
-  this->check();
+  this->commit(mesh->scene);
   return mesh;
 }
 

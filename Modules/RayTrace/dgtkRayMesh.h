@@ -70,6 +70,9 @@ public:
   std::vector<std::shared_ptr<const RayMesh>> meshes(const std::vector<Instance>& instances, bool bare);
   /// Throws MachineError when Embree reported an error.
   void check() const;
+  /// Builds a scene's tree. Throws as check(), and lets go of the scene then: Embree 3.13 ends the process when it is
+  /// to destroy one for which memory was missing.
+  void commit(RTCScene& scene) const;
   /// So many bytes of meshes stay when nobody has them any more, the last used ones; 0 lets all go.
   void keepUnused(std::uint64_t bytes);
 

@@ -29,11 +29,16 @@ bool fitsSingle(const Eigen::Matrix3d& linear, double reach, double sizes, doubl
 RayScene::RayScene(std::shared_ptr<RayDevice> device, bool bare)
   : Device(std::move(device))
   , Bare(bare)
-  , Scene(embree().NewScene(this->Device->handle()))
 {
+  this->makeScene();
+}
+
+void RayScene::makeScene()
+{
+  this->Scene = embree().NewScene(this->Device->handle());
   this->Device->check();
   embree().SetSceneFlags(
-    this->Scene, bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    this->Scene, this->Bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   embree().SetSceneBuildQuality(this->Scene, RTC_BUILD_QUALITY_MEDIUM);
 }
 
@@ -46,12 +51,21 @@ RayScene::~RayScene()
       embree().ReleaseGeometry(placed.geometry);
     }
   }
-  embree().ReleaseScene(this->Scene);
+  if (this->Scene)
+  {
+    embree().ReleaseScene(this->Scene);
+  }
 }
 
 void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& camera_from_world)
 {
   const WorkTime build(WorkStage::Build);
+  if (!this->Scene) // memory was missing for it
+  {
+    this->State = nullptr;
+    this->Instances.clear(); // as the scene, they stay with Embree
+    this->makeScene();
+  }
   const bool newState = state != this->State;
   if (!newState && camera_from_world.rotation == this->Pose.rotation &&
       camera_from_world.translation == this->Pose.translation)
@@ -87,8 +101,7 @@ void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& came
     this->Reach = std::max(this->Reach, this->Instances[i].reach);
     this->Fits = this->Fits && (!this->Instances[i].mesh || this->Instances[i].fits);
   }
-  embree().CommitScene(this->Scene);
-  this->Device->check();
+  this->Device->commit(this->Scene);
 }
 
 void RayScene::setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& mesh)

@@ -80,6 +80,7 @@ private:
   bool isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const;
   void setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& mesh);
   void placeInstance(std::size_t index);
+  void makeScene();
 
   std::shared_ptr<RayDevice> Device;
   bool Bare;
