@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """How textures are sampled: repeated, bilinear where they are enlarged, mip-mapped and anisotropic where reduced."""
+import base64
 import json
 import os
+import resource
 import struct
+import subprocess
 import unittest
 
 import numpy as np
@@ -56,6 +59,33 @@ class Textures(harness.Case):
             expected = bilinear(texture / 255.0, u, v)
             np.testing.assert_allclose(image, expected, atol=2e-5)
             self.assertGreater(len(np.unique(png)), 20000)
+
+    @harness.measures
+    def test_without_memory_no_texture_and_no_model_is_called_damaged(self):
+        """Whatever the limit of addresses is: all is there, or memory is named, with exit code 4."""
+        header = struct.pack(">HBBHHHHLL", 474, 0, 1, 3, 64, 64, 3, 0, 255).ljust(512, b"\0")
+        with open(self.path("texture.rgb"), "wb") as file:
+            file.write(header + bytes(3 * 64 * 64))
+        self.square(np.zeros((2, 2, 3), np.uint8))
+        self.write("square.mtl", "newmtl m\nKd 1 1 1\nmap_Kd texture.rgb\n")
+        self.write("triangle.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + base64.b64encode(
+                struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()}]}))
+        scene = self.write("scene.json", json.dumps({"objects": [{"model": "square.obj"}, {"model": "triangle.gltf"}], "cameras": [camera(16, 16, 2)]}))
+        ends = set()
+        for mebibytes in range(260, 660, 40):
+            limit = mebibytes << 20
+            done = subprocess.run([harness.DGTK, "render", scene, "-o", self.path("out"), "--replace", "--layers", "color", "--no-cache"],
+                                  capture_output=True, text=True, check=False, preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            with self.subTest(mebibytes=mebibytes, says=done.stderr):
+                self.assertIn(done.returncode, (0, 4))
+                self.assertNotIn("damaged", done.stderr)
+            ends.add(done.returncode)
+        self.assertEqual(ends, {0, 4})
 
     def test_what_most_textures_are_needs_the_quick_decoder_alone(self):
         nowhere = {"DGTK_PICTURE_ANY": self.path("nowhere")}

@@ -222,12 +222,18 @@ Answer askUntilAnswered(const std::string& path, const std::string& absolute, co
   }
 }
 
+constexpr std::uint64_t importerBytes = std::uint64_t(512) << 20; // without those of large models
+
 [[noreturn]] void reportDeath(const std::string& path, int status)
 {
   const int signal = helper::signalOf(status, path);
   if (signal == SIGXCPU || signal == SIGKILL)
   {
     throw InputError(path, "is damaged, or too large: reading it took more processor time or memory than allowed");
+  }
+  if (helper::addressesAreFew(importerBytes))
+  {
+    throw MachineError(path + ": cannot be read: not enough memory");
   }
   throw InputError(path, "is damaged: its importer ended abnormally (" +
                            (signal ? helper::signalText(signal) : std::string("incomplete answer")) + ')');

@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -171,6 +172,13 @@ int signalOf(int status, const std::string& path)
     throw MachineError(path + ": reading was interrupted");
   }
   return signal;
+}
+
+bool addressesAreFew(std::uint64_t bytes)
+{
+  constexpr std::uint64_t libraries = std::uint64_t(1) << 30; // with their threads' stacks
+  rlimit now{};
+  return ::getrlimit(RLIMIT_AS, &now) == 0 && now.rlim_cur != RLIM_INFINITY && now.rlim_cur < bytes + libraries;
 }
 
 std::string signalText(int signal) { return "signal " + std::to_string(signal) + ", " + ::strsignal(signal); }

@@ -168,6 +168,7 @@ public:
 
 private:
   static constexpr int mostStarts = 3;
+  static constexpr std::uint64_t decoderBytes = std::uint64_t(512) << 20; ///< without those of large pictures
 
   void start()
   {
@@ -188,7 +189,7 @@ private:
     {
       failMachine(path, std::string(this->Program) + " was killed: not enough memory?");
     }
-    if (cramped)
+    if (cramped || (signal != SIGXCPU && helper::addressesAreFew(decoderBytes)))
     {
       failMachine(path, "not enough memory");
     }
