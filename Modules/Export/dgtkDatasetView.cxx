@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <set>
 #include <tuple>
@@ -308,6 +309,17 @@ DatasetFile DatasetView::listed(const std::string& file) const
   return this->describedFile(*number);
 }
 
+std::string DatasetView::pathOf(const std::string& file) const
+{
+  std::string path = dgtk::Folder(this->Folder).fileAt(file);
+  std::error_code code;
+  if (std::filesystem::file_size(path, code) != this->listed(file).bytes)
+  {
+    throw InputError(path, "is not the file that the manifest lists: its size differs");
+  }
+  return path;
+}
+
 std::string DatasetView::bytesOf(const std::string& file) const
 {
   const std::string source = dgtk::Folder(this->Folder).fileAt(file);
@@ -366,7 +378,7 @@ std::vector<PoseRecord> DatasetView::poses(int frame) const { return this->AllPo
 
 std::vector<TrackPoint> DatasetView::trackPoints() const
 {
-  return readTrackPoints(dgtk::Folder(this->Folder).fileAt(trackPointsFile));
+  return readTrackPoints(this->pathOf(trackPointsFile));
 }
 
 double DatasetView::seconds(int frame) const

@@ -116,7 +116,8 @@ public:
   /// folders (correspondence) the one whose folder is named.
   std::string file(const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {},
     const std::string& folder = {}) const;
-  std::string pathOf(const std::string& file) const { return this->Folder + '/' + file; }
+  /// Of a file, to be read. Throws InputError where the manifest does not list it, or with another size.
+  std::string pathOf(const std::string& file) const;
   /// All files of a picture, of all layers, as the manifest lists them.
   std::vector<DatasetFile> filesOf(const DatasetShot& shot) const;
   /// What the manifest says of a file, camera and frame of the shots' ones; throws InputError where it does not list

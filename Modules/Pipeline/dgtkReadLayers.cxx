@@ -3,7 +3,6 @@
 
 #include "dgtkArrayMemory.h"
 #include "dgtkError.h"
-#include "dgtkFolder.h"
 #include "dgtkLayerRequest.h"
 #include "dgtkLdi.h"
 #include "dgtkPixelValues.h"
@@ -231,7 +230,7 @@ std::vector<LayerArray> readOutput(
   {
     if (isDocument(piece) && piece.spec.meaning == Meaning::Surfaces)
     {
-      return readSurfaces(shot, piece, Folder(dataset.folder()).fileAt(piece.file.path));
+      return readSurfaces(shot, piece, dataset.pathOf(piece.file.path));
     }
     if (isDocument(piece))
     {
@@ -254,7 +253,7 @@ std::vector<LayerArray> readOutput(
   {
     throw UsageError(what + ": several files hold one picture");
   }
-  const std::string path = Folder(dataset.folder()).fileAt(best);
+  const std::string path = dataset.pathOf(best);
   if (first.spec.meaning == Meaning::Surfaces)
   {
     throw UsageError(what + ": is deep OpenEXR, which OpenImageIO reads");

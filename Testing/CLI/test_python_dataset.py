@@ -155,14 +155,15 @@ class Datasets(Case):
         depth = self.path("out", "left", "depth", "000000.npy")
         with open(depth, "r+b") as file:
             file.truncate(1000)
-        with self.assertRaisesRegex(ValueError, "left/depth/000000.npy"):
+        with self.assertRaisesRegex(ValueError, "left/depth/000000.npy: is not the file that the manifest lists: its size differs"):
             data.read("depth", "left", 0)
         os.remove(depth)
         os.symlink(self.path("out", "left", "depth", "000001.npy"), depth)
         with self.assertRaisesRegex(ValueError, "left/depth/000000.npy"):
             data.read("depth", "left", 0)
-        numpy.save(self.path("out", "left", "depth", "000001.npy"), numpy.zeros((3, 4)))
-        with self.assertRaisesRegex(ValueError, "has another size than the picture .expected 40 x 30, found 4 x 3."):
+        depth = self.path("out", "left", "depth", "000001.npy")
+        numpy.save(depth, numpy.load(depth).reshape(60, 20))
+        with self.assertRaisesRegex(ValueError, "has another size than the picture .expected 40 x 30, found 20 x 60."):
             data.read("depth", "left", 1)
         os.rename(self.path("out", "manifest.json"), self.path("out", "manifest.json.gone"))
         with self.assertRaisesRegex(ValueError, "is not a dataset"):

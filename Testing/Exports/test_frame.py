@@ -372,10 +372,18 @@ class Frame(datasets.ExportCase):
         dataset = self.render(datasets.walk(self.path("scene")))
         picture = os.path.join(dataset, "Kamera 1", "color", "000001.png")
         with open(picture, "r+b") as file:
+            whole = file.read()
             file.seek(200)
             file.write(b"\0\1\2")
         for link in ((), ("--link",)):
             self.refused("export", dataset, "--format", "coco", "-o", self.path("out", *link), "--quiet", *link, status=3, says=("000001.png", "manifest"))
+        with open(picture, "wb") as file:
+            file.write(whole)
+        for layer, form in (("boxes", "coco"), ("depth", "tum")):  # of which values are taken, not bytes
+            path = next(os.path.join(dataset, "Kamera 1", layer, name) for name in sorted(os.listdir(os.path.join(dataset, "Kamera 1", layer))) if name.startswith("000001"))
+            with open(path, "ab") as file:
+                file.write(b" ")
+            self.refused("export", dataset, "--format", form, "-o", self.path("out", form), "--quiet", status=3, says=(path, "its size differs"))
 
 
 if __name__ == "__main__":
