@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -64,11 +65,11 @@ Sampler readSampler(GltfFile& file, const Json& from, std::size_t components)
   return sampler;
 }
 
-/// Calls use(key) for every key that is later than the one before.
+/// Calls use(key) for every key that is later than the one before, and not before 0.
 template <class Use>
 void forKeys(const Sampler& sampler, Use use)
 {
-  double last = -1;
+  double last = -std::numeric_limits<double>::min();
   for (std::size_t i = 0; i < sampler.times.size(); ++i)
   {
     if (sampler.times[i] > last)
@@ -149,7 +150,8 @@ void fill(Keys<N>& to, const Json& node, const char* name, std::array<double, N>
   to.values.push_back(value);
 }
 
-Animation readAnimation(GltfFile& file, const Json& from, const NodeMatch& nodes)
+/// Keys that forKeys() passes over are counted in `lost`.
+Animation readAnimation(GltfFile& file, const Json& from, const NodeMatch& nodes, std::size_t& lost)
 {
   Animation to;
   to.name = from.value("name", "");
@@ -165,7 +167,13 @@ Animation readAnimation(GltfFile& file, const Json& from, const NodeMatch& nodes
       continue; // of an extension
     }
     const Sampler sampler = readSampler(file, from.at("samplers").at(std::size_t(channel.at("sampler"))), components);
-    to.duration = std::max(to.duration, *std::max_element(sampler.times.begin(), sampler.times.end()));
+    lost += sampler.times.size();
+    forKeys(sampler,
+      [&](std::size_t key)
+      {
+        to.duration = std::max(to.duration, sampler.times[key]);
+        --lost;
+      });
     if (node == noIndex)
     {
       continue;
@@ -204,11 +212,18 @@ void repairMotion(GltfFile& file, const NodeMatch& nodes, Scene& scene)
     return;
   }
   std::vector<Animation> animations;
+  std::size_t lost = 0;
   for (const Json& animation : file.root().at("animations"))
   {
-    animations.push_back(readAnimation(file, animation, nodes));
+    animations.push_back(readAnimation(file, animation, nodes, lost));
   }
   scene.animations = std::move(animations);
+  if (lost > 0)
+  {
+    scene.warnings.push_back(std::to_string(lost) +
+                             (lost == 1 ? " key of an animation is" : " keys of animations are") +
+                             " left out: times ascend from 0 in glTF");
+  }
 }
 
 /// parent_from_node of a node, which the importer has in single precision.
@@ -386,11 +401,35 @@ std::string inOrder(const std::string& path, const ReadContents& contentsOf)
   return written;
 }
 
+/// Why a file of that version is refused, or "".
+std::string versionProblem(const Json& root)
+{
+  const Json asset = root.value("asset", Json::object());
+  const std::string version = asset.is_object() && asset.contains("version") && asset["version"].is_string()
+                                ? asset["version"].get<std::string>()
+                                : std::string();
+  const bool isTwo = version == "2" || version.rfind("2.", 0) == 0; // all of which read as 2.0 unless they say so
+  const std::string least = version.empty() ? version : asset.value("minVersion", isTwo ? "2.0" : version);
+  return version.empty()  ? "has no asset.version (a text), without which it is no glTF"
+         : least != "2.0" ? "needs a reader of glTF " + least.substr(0, 20) + "; 2.0 is read"
+                          : "";
+}
+
 std::string gltfProblem(const std::string& path, const ReadContents& contentsOf)
 {
   std::set<std::string> extensions;
-  const std::string problem =
-    problemOf([&] { extensions = extensionsOf(GltfFile(path, contentsOf), "extensionsRequired"); });
+  std::string ofVersion;
+  const std::string problem = problemOf(
+    [&]
+    {
+      const GltfFile file(path, contentsOf);
+      ofVersion = versionProblem(file.root());
+      extensions = extensionsOf(file, "extensionsRequired");
+    });
+  if (!ofVersion.empty())
+  {
+    return ofVersion;
+  }
   const auto packing = std::find_if(extensions.begin(), extensions.end(), isPacking);
   return packing != extensions.end() ? needs(*packing) : problem;
 }
@@ -403,6 +442,7 @@ void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& 
     [&]
     {
       file.emplace(path, contentsOf);
+      scene.error = versionProblem(file->root());
       scene.declaredMaterials = std::int64_t(file->root().value("materials", Json::array()).size());
       nodes.emplace(*file, scene);
       repairPlaces(*file, *nodes, scene);

@@ -29,6 +29,7 @@ struct ObjValues
   std::vector<Eigen::Vector3f> normals;
   std::vector<std::array<std::uint8_t, 4>> colors; ///< one a vertex from the first that has one; the rest is white
   bool colored = false;                            ///< some vertex has a colour that is not white
+  double brightest = 0;                            ///< component of a colour
   std::vector<std::string> libraries;              ///< what statements `mtllib` say
 };
 
@@ -44,6 +45,7 @@ void addVertex(ObjStatements& statements, ObjValues& values)
   else if (count >= 6)
   {
     values.colored = values.colored || v[3] != 1 || v[4] != 1 || v[5] != 1 || (count == 7 && v[6] != 1);
+    values.brightest = std::max({ values.brightest, v[3], v[4], v[5] });
     values.colors.resize(values.positions.size(), { 255, 255, 255, 255 });
     values.colors.push_back(colorBytes(v + 3, count == 7 ? v[6] : 1.0));
   }
@@ -320,9 +322,14 @@ private:
 
   void warn()
   {
+    constexpr double rounding = 1e-3;
     if (this->HasUvs)
     {
       this->Builder.setHasUvs();
+    }
+    if (this->Values.brightest > 1 + rounding)
+    {
+      this->Builder.warn("colours of vertices above 1 are drawn as 1, which is white");
     }
     this->warnOf(this->Points, " point is not drawn", " points are not drawn");
     this->warnOf(

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 using namespace dgtk::test;
+using testing::HasSubstr;
 using Json = nlohmann::json;
 
 namespace
@@ -179,6 +181,50 @@ TEST(GltfUses, SkinsThatCannotBeRead)
     maker.floats("MAT4", { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 });
   maker.json["skins"][0]["joints"] = { 1, 0 };
   EXPECT_EQ(refusal("gltf", maker.gltf()), refused + "a joint has no matrix");
+}
+
+TEST(GltfUses, KeysThatDoNotAscendHaveAWarning)
+{
+  const auto read = [](const std::vector<float>& times)
+  {
+    GltfMaker maker = skinnable();
+    setNodes(maker, { { { "mesh", 0 } } });
+    const int input = maker.floats("SCALAR", times);
+    const int output = maker.floats("VEC3", std::vector<float>(3 * times.size(), 1));
+    maker.json["animations"] = {
+      { { "channels", { { { "sampler", 0 }, { "target", { { "node", 0 }, { "path", "translation" } } } } } },
+        { "samplers", { { { "input", input }, { "output", output } } } } }
+    };
+    return readBytes("gltf", maker.gltf());
+  };
+  const auto warnings = [&read](const std::vector<float>& times) { return read(times)->warnings; };
+  EXPECT_THAT(warnings({ 0, 1, 2 }), testing::IsEmpty());
+  EXPECT_THAT(
+    warnings({ 0, 2, 1 }), testing::ElementsAre("1 key of an animation is left out: times ascend from 0 in glTF"));
+  EXPECT_THAT(warnings({ -0.5, 0, 1, 1, NAN }),
+    testing::ElementsAre("3 keys of animations are left out: times ascend from 0 in glTF"));
+  EXPECT_EQ(read({ 0, 1, NAN })->animations.at(0).last, 30);
+}
+
+TEST(GltfUses, FilesOfOtherVersionsAreRefused)
+{
+  const auto said = [](const Json& asset)
+  {
+    GltfMaker maker = skinnable();
+    setNodes(maker, { { { "mesh", 0 } } });
+    maker.json["asset"] = asset;
+    return refusal("gltf", maker.gltf());
+  };
+  for (const char* version : { "2.0", "2.1", "2" })
+  {
+    EXPECT_EQ(said({ { "version", version } }), "") << version;
+  }
+  EXPECT_EQ(said({ { "version", "2.1" }, { "minVersion", "2.0" } }), "");
+  EXPECT_THAT(
+    said({ { "version", "2.1" }, { "minVersion", "2.1" } }), HasSubstr("needs a reader of glTF 2.1; 2.0 is read"));
+  EXPECT_THAT(said({ { "version", "1.0" } }), HasSubstr("needs a reader of glTF 1.0; 2.0 is read"));
+  EXPECT_THAT(said({ { "generator", "me" } }), HasSubstr("has no asset.version (a text), without which it is no glTF"));
+  EXPECT_THAT(said(nullptr), HasSubstr("has no asset.version"));
 }
 
 TEST(GltfUses, FilesThatOnlyTheImporterReads)

@@ -111,6 +111,14 @@ TEST(ObjMaterials, ColoursThatAreNotReadHaveAWarning)
                                  "material 'm': a colour of 'Ks spectral' is not read"));
 }
 
+TEST(ObjMaterials, ColoursOfVerticesAboveWhiteHaveAWarning)
+{
+  const auto warnings = [](const std::string& color)
+  { return readWithLibrary("", threeCorners + "v 0 0 1 " + color + "\nf 1 2 4\n")->warnings; };
+  EXPECT_THAT(warnings("128 0 0"), testing::ElementsAre("colours of vertices above 1 are drawn as 1, which is white"));
+  EXPECT_THAT(warnings("0 0 1.0001"), testing::IsEmpty());
+}
+
 TEST(ObjMaterials, OtherFilesAndProgramsThatAreCalledHaveAWarning)
 {
   const auto warnings = [](const std::string& calls)

@@ -302,6 +302,11 @@ Placing placingOf(const OIIO::ImageInput& input, const std::string& path)
   {
     requireWholeMap(path);
   }
+  else if (const int colors = spec.get_int_attribute("tiff:PhotometricInterpretation");
+           colors == 32844 || colors == 32845)
+  {
+    throw std::runtime_error("has logarithmic colours (LogL, LogLuv), which are not read: save it as .hdr or .exr");
+  }
   return placing;
 }
 

@@ -89,3 +89,37 @@ TEST(TextureFile, DataWindowsStandInTheirDisplayWindow)
     }
   }
 }
+
+TEST(TextureFile, LogarithmicColoursAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto problemOf = [&folder](int compression, int colors)
+  {
+    std::string bytes("II*\0\x10\0\0\0\0\0\0\0\0\0\0\0\x09\0", 18); // a pixel, then its nine tags
+    const auto number = [&bytes](int value, int count)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        bytes += static_cast<char>(value >> (8 * i));
+      }
+    };
+    for (const auto& [tag, value] :
+      std::vector<std::pair<int, int>>{ { 256, 1 }, { 257, 1 }, { 258, 16 }, { 259, compression }, { 262, colors },
+        { 273, 8 }, { 277, colors == 32845 ? 3 : 1 }, { 278, 1 }, { 279, 8 } })
+    {
+      number(tag, 2);
+      number(4, 2);
+      number(1, 4);
+      number(value, 4);
+    }
+    number(0, 4);
+    writeFile(folder.path("a.tif"), bytes);
+    std::string problem;
+    decodeTexture(folder.path("a.tif"), problem);
+    return problem;
+  };
+  const std::string said = "has logarithmic colours (LogL, LogLuv), which are not read: save it as .hdr or .exr";
+  EXPECT_EQ(problemOf(34676, 32845), said);
+  EXPECT_EQ(problemOf(34676, 32844), said);
+  EXPECT_EQ(problemOf(1, 1), "");
+}
