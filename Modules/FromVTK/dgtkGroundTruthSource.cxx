@@ -136,6 +136,10 @@ int dgtkGroundTruthSource::RequestInformation(vtkInformation*, vtkInformationVec
   catch (const std::exception& error)
   {
     this->Self->found = {};
+    if (vtkDataObject* const kept = outputs->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT()))
+    {
+      kept->Initialize(); // what an earlier update gave is not the answer
+    }
     vtkErrorMacro(<< error.what());
     return 0;
   }

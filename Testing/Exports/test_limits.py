@@ -42,11 +42,16 @@ class Limits(datasets.ExportCase):
         """The dataset with another document: `edit` is given what it holds."""
         copy = self.path(f"changed-{len(os.listdir(self.folder))}")
         shutil.copytree(self.dataset, copy, copy_function=os.link)
-        document = load_json(os.path.join(copy, name))
+        def rewritten(document, place):
+            os.remove(os.path.join(copy, place))
+            with open(os.path.join(copy, place), "w", encoding="utf-8") as file:
+                json.dump(document, file)
+        document, manifest = load_json(os.path.join(copy, name)), load_json(os.path.join(copy, "manifest.json"))
         edit(document)
-        os.remove(os.path.join(copy, name))
-        with open(os.path.join(copy, name), "w", encoding="utf-8") as file:
-            json.dump(document, file)
+        rewritten(document, name)
+        for entry in manifest["files"]:
+            entry["bytes"] = os.path.getsize(os.path.join(copy, entry["path"]))
+        rewritten(manifest, "manifest.json")
         return copy
 
     def with_cameras(self, edit, amount):

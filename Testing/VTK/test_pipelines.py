@@ -203,6 +203,12 @@ class Pipelines(unittest.TestCase):
                 self.assertTrue(load(path) if load == scene.Load else load(text(width), folder), scene.GetErrorMessage())
                 source.Update()
                 self.assertEqual(source.GetOutput().GetDimensions()[0], width)
+        source.AddObserver("ErrorEvent", lambda *_: None)
+        source.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        for layers, points in (("depht", 0), ("depth", 160), ("", 0), ("depth", 160)):  # nothing of an earlier update stays
+            source.SetLayers(layers)
+            source.Update()
+            self.assertEqual(source.GetOutput().GetNumberOfPoints(), points, layers)
 
     def test_failures_are_errors_of_the_pipeline(self):
         for source, words in ((dgtk.dgtkGroundTruthSource(), "neither a renderer nor a scene"), (dgtk.dgtkDepthFromZBuffer(), "")):
