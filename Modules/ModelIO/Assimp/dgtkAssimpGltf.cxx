@@ -65,11 +65,11 @@ Sampler readSampler(GltfFile& file, const Json& from, std::size_t components)
   return sampler;
 }
 
-/// Calls use(key) for every key that is later than the one before, and not before 0.
+/// Calls use(key) for every key that is later than the one before.
 template <class Use>
 void forKeys(const Sampler& sampler, Use use)
 {
-  double last = -std::numeric_limits<double>::min();
+  double last = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sampler.times.size(); ++i)
   {
     if (sampler.times[i] > last)
@@ -222,7 +222,7 @@ void repairMotion(GltfFile& file, const NodeMatch& nodes, Scene& scene)
   {
     scene.warnings.push_back(std::to_string(lost) +
                              (lost == 1 ? " key of an animation is" : " keys of animations are") +
-                             " left out: times ascend from 0 in glTF");
+                             " left out: their times do not ascend");
   }
 }
 
