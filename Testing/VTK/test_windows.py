@@ -444,13 +444,17 @@ class Colours(unittest.TestCase):
             self.assertEqual(before.GetNumberOfProps(), 1)
 
     def test_textures_by_their_filter(self):
-        for interpolate, mipmap in ((0, 0), (1, 0), (1, 1)):
+        colors = []
+        for interpolate, mipmap in ((0, 0), (0, 1), (1, 0), (1, 1)):
             with self.subTest(interpolate=interpolate, mipmap=mipmap):
                 renderer = scenes.earth()
                 for actor in renderer.GetActors():
                     actor.GetTexture().SetInterpolate(interpolate)
                     actor.GetTexture().SetMipmap(mipmap)
                 self.compare(renderer, mean=0.6, unlike=0.05)
+                colors.append(dgtk.truth(renderer, "color", size=SIZE)["color"])
+        numpy.testing.assert_array_equal(colors[0], colors[1])  # to VTK a mipmap that is not interpolated is none
+        self.assertFalse(numpy.array_equal(colors[2], colors[3]))
 
 
 class Windows(unittest.TestCase):

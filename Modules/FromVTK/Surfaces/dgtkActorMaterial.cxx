@@ -100,9 +100,9 @@ int addTexture(vtkTexture& texture, Model& model, Unsupported& unsupported)
   Texture made;
   made.name = "texture-" + std::to_string(model.textures.size() + 1);
   made.image = image;
-  made.filter = texture.GetMipmap()             ? TextureFilter::Smooth
-                : texture.GetInterpolate() != 0 ? TextureFilter::Linear
-                                                : TextureFilter::Nearest;
+  made.filter = texture.GetInterpolate() == 0 ? TextureFilter::Nearest // with and without smaller pictures
+                : texture.GetMipmap()         ? TextureFilter::Smooth
+                                              : TextureFilter::Linear;
   made.wrap.fill(texture.GetRepeat() != 0                          ? TextureWrap::Repeat
                  : texture.GetWrap() == vtkTexture::MirroredRepeat ? TextureWrap::Mirror
                                                                    : TextureWrap::Clamp);
