@@ -210,6 +210,24 @@ class Pipelines(unittest.TestCase):
             source.Update()
             self.assertEqual(source.GetOutput().GetNumberOfPoints(), points, layers)
 
+    def test_pieces_and_what_they_are_drawn_in(self):
+        """Sub-pieces save memory while VTK draws: all of them are what a mapper shows."""
+        def seen(pieces, piece, parts):
+            sphere, mapper, actor, renderer = vtk.vtkSphereSource(), vtk.vtkPolyDataMapper(), vtk.vtkActor(), vtk.vtkRenderer()
+            sphere.SetThetaResolution(32)
+            mapper.SetInputConnection(sphere.GetOutputPort())
+            mapper.SetNumberOfPieces(pieces)
+            mapper.SetPiece(piece)
+            mapper.SetNumberOfSubPieces(parts)
+            actor.SetMapper(mapper)
+            renderer.AddActor(actor)
+            renderer.GetActiveCamera().SetPosition(0, 0, 3)
+            renderer.GetActiveCamera().SetClippingRange(1, 9)
+            return (dgtk.truth(renderer, "objects", size=(60, 60))["objects"] > 0).sum()
+        whole, half = seen(1, 0, 1), seen(2, 1, 1)
+        self.assertLess(half, whole)
+        self.assertEqual((seen(1, 0, 4), seen(2, 1, 3)), (whole, half))
+
     def test_failures_are_errors_of_the_pipeline(self):
         for source, words in ((dgtk.dgtkGroundTruthSource(), "neither a renderer nor a scene"), (dgtk.dgtkDepthFromZBuffer(), "")):
             told = []

@@ -16,6 +16,7 @@
 #include <vtkMapper.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkScalarsToColors.h>
 
 #include <limits>
@@ -321,6 +322,12 @@ DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported)
       return {};
     }
     mapper.Update();
+    vtkPolyDataMapper* const inParts = vtkPolyDataMapper::SafeDownCast(&mapper);
+    if (inParts != nullptr && inParts->GetNumberOfSubPieces() > 1) // of which the last one is there now
+    {
+      mapper.GetInputAlgorithm()->UpdatePiece(
+        inParts->GetPiece(), inParts->GetNumberOfPieces(), inParts->GetGhostLevel());
+    }
   }
   if (mapper.IsA("vtkGlyph3DMapper") != 0)
   {
