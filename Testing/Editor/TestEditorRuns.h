@@ -42,6 +42,7 @@ private:
   void startEditor(QProcess& editor) const;
   void holdNext() const;
   void waitUntilHeld() const;
+  static void sendAll(int signal); ///< to all runs
   /// Lets the process of startHeld() go on.
   static void letGo();
   /// As after a start of the editor.
