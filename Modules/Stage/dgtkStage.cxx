@@ -415,13 +415,17 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
 
 std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, int height) const
 {
-  std::vector<Exposure> all;
   const CameraDescription& camera = this->Self->Scene.cameras[index];
+  if (!camera.blurs())
+  {
+    return {};
+  }
   const ShutterDescription& shutter = camera.shutter;
   const bool blurs = camera.lens.blurs();
   const int count = std::max(shutter.close > shutter.open ? shutter.exposures : 1, blurs ? camera.lens.exposures : 1);
   const std::vector<Eigen::Vector2d> points = blurs ? lensPoints(count) : std::vector<Eigen::Vector2d>();
-  for (int i = 0; i < count && camera.blurs(); ++i)
+  std::vector<Exposure> all;
+  for (int i = 0; i < count; ++i)
   {
     Exposure one;
     one.frame = frame + (shutter.open + (i + 0.5) / count * (shutter.close - shutter.open));

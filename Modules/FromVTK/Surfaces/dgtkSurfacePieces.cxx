@@ -321,12 +321,15 @@ DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported)
       unsupported.add(actor.name + ": " + failure);
       return {};
     }
-    mapper.Update();
     vtkPolyDataMapper* const inParts = vtkPolyDataMapper::SafeDownCast(&mapper);
-    if (inParts != nullptr && inParts->GetNumberOfSubPieces() > 1) // of which the last one is there now
+    if (inParts != nullptr && inParts->GetNumberOfSubPieces() > 1) // of which an update leaves the last one
     {
       mapper.GetInputAlgorithm()->UpdatePiece(
         inParts->GetPiece(), inParts->GetNumberOfPieces(), inParts->GetGhostLevel());
+    }
+    else
+    {
+      mapper.Update();
     }
   }
   if (mapper.IsA("vtkGlyph3DMapper") != 0)

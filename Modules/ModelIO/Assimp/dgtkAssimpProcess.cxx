@@ -222,8 +222,6 @@ Answer askUntilAnswered(const std::string& path, const std::string& absolute, co
   }
 }
 
-constexpr std::uint64_t importerBytes = std::uint64_t(512) << 20; // without those of large models
-
 [[noreturn]] void reportDeath(const std::string& path, int status)
 {
   const int signal = helper::signalOf(status, path);
@@ -231,7 +229,7 @@ constexpr std::uint64_t importerBytes = std::uint64_t(512) << 20; // without tho
   {
     throw InputError(path, "is damaged, or too large: reading it took more processor time or memory than allowed");
   }
-  if (helper::addressesAreFew(importerBytes))
+  if (helper::addressesAreFew())
   {
     throw MachineError(path + ": cannot be read: not enough memory");
   }

@@ -174,11 +174,11 @@ int signalOf(int status, const std::string& path)
   return signal;
 }
 
-bool addressesAreFew(std::uint64_t bytes)
+bool addressesAreFew()
 {
-  constexpr std::uint64_t libraries = std::uint64_t(1) << 30; // with their threads' stacks
+  constexpr rlim_t least = rlim_t(3) << 29; // libraries, stacks of their threads, and 512 MiB for the work
   rlimit now{};
-  return ::getrlimit(RLIMIT_AS, &now) == 0 && now.rlim_cur != RLIM_INFINITY && now.rlim_cur < bytes + libraries;
+  return ::getrlimit(RLIMIT_AS, &now) == 0 && now.rlim_cur != RLIM_INFINITY && now.rlim_cur < least;
 }
 
 std::string signalText(int signal) { return "signal " + std::to_string(signal) + ", " + ::strsignal(signal); }

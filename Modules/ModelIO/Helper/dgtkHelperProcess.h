@@ -4,7 +4,6 @@
 
 #include "dgtkHelperChannel.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -50,9 +49,9 @@ bool isInterruption(int signal);
 /// The signal that a status of waitpid tells of, 0 for none. Throws MachineError for an interruption: `path` was not
 /// read to its end.
 int signalOf(int status, const std::string& path);
-/// Whether addresses are limited (`ulimit -v`) to fewer than a helper has, beside `bytes` for its work: its end may
-/// have come from that, whatever it looks like.
-bool addressesAreFew(std::uint64_t bytes);
+/// Whether addresses are limited (`ulimit -v`) to fewer than a helper has: its end may have come from that, whatever it
+/// looks like.
+bool addressesAreFew();
 /// "signal 6, Aborted"
 std::string signalText(int signal);
 

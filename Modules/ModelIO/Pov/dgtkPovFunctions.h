@@ -10,13 +10,14 @@
 namespace dgtk
 {
 
-/// A function of POV-Ray's own, of floats and vectors (its reference, 2.1.1.1 and 2.1.1.2). Null for other names.
+/// A function of POV-Ray's own, of floats and vectors, as version 3.7 computes it.
 struct PovFunction
 {
   std::size_t fewest; ///< arguments
   std::size_t most;
   PovNumber (*value)(const std::vector<PovNumber>& arguments); ///< not finite where there is none
 };
+/// Null for other names.
 const PovFunction* povFunction(const std::string& name);
 
 /// A float used as a vector has it in all components.

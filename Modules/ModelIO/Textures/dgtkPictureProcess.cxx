@@ -168,7 +168,6 @@ public:
 
 private:
   static constexpr int mostStarts = 3;
-  static constexpr std::uint64_t decoderBytes = std::uint64_t(512) << 20; ///< without those of large pictures
 
   void start()
   {
@@ -189,7 +188,7 @@ private:
     {
       failMachine(path, std::string(this->Program) + " was killed: not enough memory?");
     }
-    if (cramped || (signal != SIGXCPU && helper::addressesAreFew(decoderBytes)))
+    if (cramped || (signal != SIGXCPU && helper::addressesAreFew()))
     {
       failMachine(path, "not enough memory");
     }
