@@ -150,6 +150,24 @@ class HostileFolders(ManyCase):
         os.symlink(self.path("elsewhere", "samples.json"), os.path.join(samples, "samples.json"))
         self.refused("verify", samples, status=3, says="samples.json: is not read through a link")
 
+    def edit(self, change):
+        """Changes the manifest."""
+        name = os.path.join(self.data, "manifest.json")
+        with open(name, encoding="utf-8") as file:
+            manifest = json.load(file)
+        change(manifest)
+        with open(name, "w", encoding="utf-8") as file:
+            json.dump(manifest, file)
+
+    def test_files_listed_twice(self):
+        for place in (0, 1, 99):  # beside itself, and far from it
+            self.fresh()
+            self.edit(lambda manifest, at=place: manifest["files"].insert(at, dict(manifest["files"][0])))
+            for command in (("info", self.data), ("verify", self.data), ("compare", self.data, self.path("whole")), ("report", self.data, "-o", self.path("r.html")),
+                            ("export", self.data, "--format", "kitti-depth", "-o", self.path("export"))):
+                with self.subTest(command=command, place=place):
+                    self.refused(*command, status=3, says=("manifest.json", "cameras.json", "is listed twice"))
+
     def test_hard_links_are_replaced(self):
         for name in ("left/depth/000000.npy", "left/depth/000000.npy.partial", ".dgtk-journal.partial", "manifest.json.partial"):
             with self.subTest(name):

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <unordered_set>
 
 namespace dgtk
 {
@@ -146,10 +147,38 @@ DatasetFile fileOf(const JsonCursor& value)
   return file;
 }
 
+namespace
+{
+/// Of a manifest whose files are not sorted by path, as those of DGTk are.
+void refuseTwins(const std::string& path)
+{
+  std::unordered_set<std::string> listed;
+  readJsonPieces(path, { { "files", [&](const JsonPiece& piece)
+                         {
+                           const JsonCursor name = piece.value["path"];
+                           if (!listed.insert(name.text()).second)
+                           {
+                             name.fail(dgtk::quoted(name.text()) + " is listed twice");
+                           }
+                         } } });
+}
+} // namespace
+
 Manifest readManifest(const std::string& path, const std::function<void(DatasetFile&&)>& visit)
 {
-  const JsonDocument document =
-    readJsonPieces(path, { { "files", [&](const JsonPiece& piece) { visit(fileOf(piece.value)); } } });
+  std::string last;
+  bool sorted = true;
+  const JsonDocument document = readJsonPieces(path, { { "files", [&](const JsonPiece& piece)
+                                                       {
+                                                         DatasetFile file = fileOf(piece.value);
+                                                         sorted = sorted && last < file.path;
+                                                         last = file.path;
+                                                         visit(std::move(file));
+                                                       } } });
+  if (!sorted)
+  {
+    refuseTwins(path);
+  }
   const JsonCursor root(document);
   if (!root.has("format") || root["format"].node().text != "DGTk dataset")
   {

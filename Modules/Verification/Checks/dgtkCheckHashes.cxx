@@ -73,7 +73,7 @@ void checkUnlisted(const Dataset& dataset, Meter& meter)
   std::set<std::string> listed;
   for (const DatasetFile& file : dataset.manifest().files)
   {
-    meter.equal(listed.insert(file.path).second, [&] { return Offender{ file.path, -1, -1, "listed twice", "once" }; });
+    listed.insert(file.path);
   }
   std::set<std::string> present;
   for (const auto& entry : fs::recursive_directory_iterator(dataset.folder()))
