@@ -4,7 +4,7 @@ import json
 import os
 import shutil
 
-from harness import main
+from harness import digests, main
 from many_runs import ManyCase
 
 ENTRY = {"bytes": 4, "sha256": "0" * 64, "layer": "depth", "camera": "left", "frame": 0}
@@ -110,14 +110,14 @@ class HostileFolders(ManyCase):
                 with open(name, "w", encoding="utf-8") as file:
                     json.dump(manifest, file)
                 for start in STARTS:
-                    self.refused(*self.render, "-o", self.data, *start, status=2, says="leads out of the dataset")
+                    self.refused(*self.render, "-o", self.data, *start, status=3 if start == ("--resume",) else 2, says="leads out of the dataset")
                 for command in (("verify", self.data), ("compare", self.data, self.path("whole"))):
                     self.assertNotIn("mine", self.refused(*command, status=3, says="leads out of the dataset"))
                 os.remove(name)
                 with open(os.path.join(self.data, ".dgtk-journal"), "w", encoding="utf-8") as file:
                     file.write(f"DGTk journal 1 {manifest['request_hash']}\n" + "\t".join(["0" * 64, "4", "0", "depth", "left", path]) + "\n")
                 for start in STARTS:
-                    self.refused(*self.render, "-o", self.data, *start, status=2, says="leads out of the dataset")
+                    self.refused(*self.render, "-o", self.data, *start, status=3 if start == ("--resume",) else 2, says="leads out of the dataset")
 
     def test_entries_through_links(self):
         self.fresh()
@@ -167,6 +167,31 @@ class HostileFolders(ManyCase):
                             ("export", self.data, "--format", "kitti-depth", "-o", self.path("export"))):
                 with self.subTest(command=command, place=place):
                     self.refused(*command, status=3, says=("manifest.json", "cameras.json", "is listed twice"))
+
+    def test_wrong_entries_are_not_resumed(self):
+        name = "left/depth/000000.npy"
+        for change, says in (({"frame": -5}, "frame -5"), ({"camera": "ghost"}, "camera 'ghost'"), ({"layer": "ghost"}, "layer 'ghost'"), ({"frame": 1}, "frame 1"),
+                             ({"path": "left/depth/000007.npy"}, "is no file of the run"), ({"sha256": "0"}, "sha256"), ({"path": "cameras.json"}, "is listed twice")):
+            with self.subTest(**change):
+                self.fresh()
+                self.edit(lambda manifest, change=change: next(one for one in manifest["files"] if one["path"] == name).update(change))
+                before = digests(self.data)
+                self.refused(*self.render, "-o", self.data, "--resume", status=3, says=("manifest.json", says))
+                self.assertEqual(digests(self.data), before)
+                if says in ("sha256", "is listed twice"):
+                    continue
+                with open(os.path.join(self.data, "manifest.json"), encoding="utf-8") as file:
+                    manifest = json.load(file)
+                for document in ("manifest.json", "cameras.json", "objects.json", "poses.json", "scene.json"):
+                    os.remove(os.path.join(self.data, document))
+                with open(os.path.join(self.data, ".dgtk-journal"), "w", encoding="utf-8") as file:
+                    file.write(f"DGTk journal 1 {manifest['request_hash']}\n")
+                    for one in manifest["files"]:
+                        if "frame" in one:
+                            file.write("\t".join([one["sha256"], str(one["bytes"]), str(one["frame"]), one["layer"], one["camera"], one["path"]]) + "\n")
+                before = digests(self.data)
+                self.refused(*self.render, "-o", self.data, "--resume", status=3, says=(".dgtk-journal", says))
+                self.assertEqual(digests(self.data), before)
 
     def test_hard_links_are_replaced(self):
         for name in ("left/depth/000000.npy", "left/depth/000000.npy.partial", ".dgtk-journal.partial", "manifest.json.partial"):

@@ -117,8 +117,7 @@ void readJournal(const std::string& path, FolderRecords& records, const ForListe
     }
     if (!Folder::isPlain(file->path))
     {
-      records.foreign = std::string(journalName) + ": " + quoted(file->path) + " leads out of the dataset";
-      break;
+      throw InputError(path, quoted(file->path) + " leads out of the dataset");
     }
     list(std::move(*file), ListedIn::Journal, records, visit);
   }
@@ -185,8 +184,31 @@ FolderRecords readFolderRecords(const Folder& folder, const std::string& documen
   catch (const InputError& error)
   {
     records.foreign = error.what();
+    records.damage = error;
   }
   return records;
+}
+
+void judgeFiles(const Folder& folder, const std::string& document, const JudgeOfFiles& judge)
+{
+  if (!judge)
+  {
+    return;
+  }
+  std::optional<InputError> first; // what is thrown in between counts as damage of the document
+  readFolderRecords(folder, document,
+    [&](DatasetFile&& file, ListedIn where)
+    {
+      const std::string fault = first || file.sha256.empty() ? "" : judge(file);
+      if (!fault.empty())
+      {
+        first.emplace(folder.pathOf(where == ListedIn::Journal ? journalName : document), fault);
+      }
+    });
+  if (first)
+  {
+    throw *first;
+  }
 }
 
 std::string journalFirstLine(const std::string& requestHash) { return firstLine + requestHash + '\n'; }

@@ -3,6 +3,7 @@
 #define dgtkFolderRecords_h
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
 #include "dgtkFolder.h"
 #include "dgtkFolderContents.h"
 #include "dgtkJournal.h"
@@ -17,11 +18,12 @@ namespace dgtk
 /// What a folder's manifest and journal say.
 struct FolderRecords
 {
-  bool journal = false;    ///< an interrupted run's
-  bool whole = false;      ///< a manifest is there, and no journal of another request
-  bool names = false;      ///< they list files
-  std::string requestHash; ///< of the journal, else of the manifest; empty without either
-  std::string foreign;     ///< not empty: why manifest or journal are not DGTk's
+  bool journal = false;             ///< an interrupted run's
+  bool whole = false;               ///< a manifest is there, and no journal of another request
+  bool names = false;               ///< they list files
+  std::string requestHash;          ///< of the journal, else of the manifest; empty without either
+  std::string foreign;              ///< not empty: why manifest or journal are not DGTk's
+  std::optional<InputError> damage; ///< that they are foreign since one of them is not what it is read as
 };
 
 /// Where a file is listed.
@@ -39,6 +41,9 @@ using ForListed = std::function<void(DatasetFile&& file, ListedIn where)>;
 /// cannot be read; what is found foreign may have handed on files before.
 FolderRecords readFolderRecords(
   const Folder& folder, const std::string& document = manifestName, const ForListed& visit = {});
+
+/// Throws InputError for the first finished file that a judge, if there is one, has a word about.
+void judgeFiles(const Folder& folder, const std::string& document, const JudgeOfFiles& judge);
 
 /// Whether nothing stands there but what is left of a run that was killed at its very beginning.
 bool holdsNothing(const std::string& folder);

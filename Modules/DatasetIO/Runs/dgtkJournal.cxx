@@ -65,6 +65,10 @@ void refuseIfNeeded(
     case FolderContents::Running:
       throw FolderError(folder, contents);
     case FolderContents::Foreign:
+      if (records.damage && start == JournalStart::Resume)
+      {
+        throw *records.damage;
+      }
       throw FolderError(folder, contents,
         records.foreign.empty() ? "; name a new or an empty folder"
                                 : "; name another folder (" + records.foreign + ")");
@@ -343,7 +347,7 @@ struct Journal::Impl
 };
 
 Journal::Journal(const std::string& path, const std::string& requestHash, JournalStart start, const ForNames& names,
-  const std::string& document)
+  const std::string& document, const JudgeOfFiles& judge)
   : Self(new Impl(path, document))
 {
   makeFolders(path);
@@ -357,13 +361,14 @@ Journal::Journal(const std::string& path, const std::string& requestHash, Journa
   {
     const FolderRecords records = this->Self->read();
     refuseIfNeeded(path, records, contentsOf(folder, records, requestHash), start);
+    judgeFiles(folder, document, start == JournalStart::Resume ? judge : nullptr);
     checkNames(folder, document, this->Self->listed, names);
   };
   try
   {
     look();
   }
-  catch (const UsageError&)
+  catch (const Error&)
   {
     if (isRunning(folder))
     {
@@ -388,10 +393,12 @@ Journal::Journal(const std::string& path, const std::string& requestHash, Journa
   }
 }
 
-Journal::Journal(
-  const std::string& path, const std::string& requestHash, JournalStart start, const std::vector<std::string>& names)
-  : Journal(path, requestHash, start,
-      [&](const std::function<void(const std::string&)>& visit) { std::for_each(names.begin(), names.end(), visit); })
+Journal::Journal(const std::string& path, const std::string& requestHash, JournalStart start,
+  const std::vector<std::string>& names, const JudgeOfFiles& judge)
+  : Journal(
+      path, requestHash, start,
+      [&](const std::function<void(const std::string&)>& visit) { std::for_each(names.begin(), names.end(), visit); },
+      manifestName, judge)
 {
 }
 

@@ -40,6 +40,9 @@ enum class JournalStart
   Replace ///< it goes, whatever it is
 };
 
+/// What is wrong with a file as it is recorded; "": nothing.
+using JudgeOfFiles = std::function<std::string(const DatasetFile& file)>;
+
 /// The files of a dataset: those that are going to be written and those that are complete, recorded while it is
 /// written, so that an interrupted run can be resumed or removed. One line a file, written at once; a line cut off by a
 /// crash is ignored.
@@ -55,7 +58,7 @@ public:
   /// | Finished | removed | kept | removed |
   /// | Unfinished | FolderError | kept | removed |
   /// | FinishedOther, UnfinishedOther | FolderError | FolderError | removed |
-  /// | Running, Foreign | FolderError | FolderError | FolderError |
+  /// | Running, Foreign | FolderError | FolderError; InputError of a damaged document | FolderError |
   ///
   /// Kept are files with the recorded size and hash; they are finished(). Removed are the files that manifest and
   /// journal list, half-written ones included, and the folders that they leave empty; nothing else. An old manifest is
@@ -65,11 +68,13 @@ public:
   /// that neither manifest nor journal lists, or a link in place of a folder, is a UsageError before anything is
   /// changed. Throws MachineError when the folder cannot be made or written.
   /// `document`: the name of the one that a whole run ends with, manifestName or exportName.
+  /// `judge` sees the finished files that Resume finds; what it says is an InputError before anything is changed, as is
+  /// what else is damaged in the manifest then.
   /// Memory: 24 bytes a file that is listed.
   Journal(const std::string& folder, const std::string& requestHash, JournalStart start, const ForNames& names,
-    const std::string& document = manifestName);
+    const std::string& document = manifestName, const JudgeOfFiles& judge = {});
   Journal(const std::string& folder, const std::string& requestHash, JournalStart start,
-    const std::vector<std::string>& names = {});
+    const std::vector<std::string>& names = {}, const JudgeOfFiles& judge = {});
   ~Journal(); ///< keeps the journal for a later resume
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;

@@ -161,8 +161,8 @@ GeneratorResult Run::execute()
   {
     this->say("warning: " + tight); // not in the manifest, which is the same on every disk
   }
-  this->Files = std::make_unique<RunFiles>(
-    this->Root, this->Documents->requestHash(), startOf(request), this->Documents->allNames());
+  this->Files = std::make_unique<RunFiles>(this->Root, this->Documents->requestHash(), startOf(request),
+    this->Documents->allNames(), request.resume ? this->Documents->judge() : JudgeOfFiles());
   for (PlannedLayer& planned : this->Plan.layers)
   {
     planned.shared = planned.layer->makeShared(

@@ -11,7 +11,10 @@
 
 #include "dgtkContactSheet.h"
 #include "dgtkDatasetDocuments.h"
+#include "dgtkNameTable.h"
 
+#include <algorithm>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -145,6 +148,65 @@ std::vector<std::string> RunDocuments::allNames() const
     names.insert(names.end(), own.begin(), own.end());
   }
   return names;
+}
+
+JudgeOfFiles RunDocuments::judge() const
+{
+  struct Layers
+  {
+    std::vector<std::string> names;
+    NameTable files; ///< with the number of the job, and that of the layer, from 1
+  };
+  const auto known = std::make_shared<Layers>();
+  const auto visit = [this](const auto& take)
+  {
+    for (std::size_t job = 0; job < this->Plan.jobs.size(); ++job)
+    {
+      for (const LayerOutput& output : outputsOf(this->Plan, this->Scene, this->Plan.jobs[job]))
+      {
+        for (const std::string& name : output.files())
+        {
+          take(job, output.layer, name);
+        }
+      }
+    }
+  };
+  visit([&](std::size_t, const std::string&, const std::string& name) { known->files.add(name); });
+  known->files.finish();
+  visit(
+    [&](std::size_t job, const std::string& layer, const std::string& name)
+    {
+      const auto at = std::find(known->names.begin(), known->names.end(), layer);
+      const auto number = static_cast<std::uint64_t>(at - known->names.begin()) + 1;
+      if (at == known->names.end())
+      {
+        known->names.push_back(layer);
+      }
+      *known->files.numberOf(name) = std::uint64_t(job) << 32 | number;
+    });
+  return [this, known](const DatasetFile& file) -> std::string
+  {
+    const std::uint64_t* number = known->files.numberOf(file.path);
+    if (!number && file.camera.empty() && file.frame == -1)
+    {
+      return ""; // a document, or what layers share
+    }
+    if (!number)
+    {
+      return dgtk::quoted(file.path) + " is listed as a picture's, and is no file of the run";
+    }
+    const Job& job = this->Plan.jobs[*number >> 32];
+    const DatasetFile right{ file.path, file.bytes, file.sha256, known->names[(*number & 0xffffffff) - 1],
+      this->Scene.description().cameras[job.camera].name, job.frame };
+    const auto words = [](const DatasetFile& one)
+    {
+      return "layer " + dgtk::quoted(one.layer) + ", camera " + dgtk::quoted(one.camera) + ", frame " +
+             std::to_string(one.frame);
+    };
+    return words(file) == words(right) ? ""
+                                       : dgtk::quoted(file.path) + " is listed as another picture's (expected " +
+                                           words(right) + ", found " + words(file) + ')';
+  };
 }
 
 Manifest RunDocuments::manifest(const std::vector<std::string>& warnings) const

@@ -34,6 +34,8 @@ public:
   const std::string& requestHash() const { return this->RequestHash; }
   /// Every file that the run writes, but those that layers share.
   std::vector<std::string> allNames() const;
+  /// Whether files are recorded as those of the layer, camera and frame that they are of.
+  JudgeOfFiles judge() const;
   /// Puts copies of all inputs into the dataset, when they are wanted there.
   void pack(RunFiles& files);
   /// Writes the geometry of the objects' models, when it is wanted.

@@ -22,8 +22,8 @@ class RunFiles
 public:
   /// Throws what Journal throws.
   RunFiles(const std::string& folder, const std::string& requestHash, JournalStart start,
-    const std::vector<std::string>& names)
-    : Log(folder, requestHash, start, names)
+    const std::vector<std::string>& names, const JudgeOfFiles& judge)
+    : Log(folder, requestHash, start, names, judge)
   {
   }
 
