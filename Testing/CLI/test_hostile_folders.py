@@ -119,6 +119,20 @@ class HostileFolders(ManyCase):
                 for start in STARTS:
                     self.refused(*self.render, "-o", self.data, *start, status=3 if start == ("--resume",) else 2, says="leads out of the dataset")
 
+    def test_names_that_no_file_of_a_run_has(self):
+        for path, says in (("left/" + "x" * 256, "is too long for a file's name"), ("/".join(["d" * 200] * 21), "is too long for a file's name"),
+                           (".dgtk-journal", "is a name for records of the run"), (".dgtk-parts/left/000000.npy", "is a name for records of the run")):
+            with self.subTest(path=path[:20]):
+                self.fresh()
+                self.edit(lambda manifest, path=path: manifest["files"].append({"path": path, **ENTRY}))
+                before = digests(self.data)
+                for command in (("info", self.data), ("verify", self.data), ("compare", self.data, self.path("whole")), ("report", self.data, "-o", self.path("r.html")),
+                                ("export", self.data, "--format", "kitti-depth", "-o", self.path("export")), (*self.render, "-o", self.data, "--resume")):
+                    self.refused(*command, status=3, says=("manifest.json:", "path " + says))
+                for start in ((), ("--replace",)):
+                    self.refused(*self.render, "-o", self.data, *start, status=2, says=says)
+                self.assertEqual(digests(self.data), before)
+
     def test_entries_through_links(self):
         self.fresh()
         self.link("link", "../outside")

@@ -8,6 +8,8 @@
 #include "dgtkLongDocuments.h"
 #include "dgtkRunParts.h"
 
+#include <algorithm>
+#include <climits>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -131,13 +133,36 @@ std::vector<CameraRecord> readCameras(const std::string& path)
   return cameras;
 }
 
+std::string faultOfName(const std::string& name)
+{
+  if (!Folder::isPlain(name))
+  {
+    return "leads out of the dataset";
+  }
+  std::size_t longest = 0;
+  const std::string first = name.substr(0, name.find('/'));
+  for (const std::filesystem::path& part : std::filesystem::path(name))
+  {
+    longest = std::max(longest, part.native().size());
+  }
+  if (longest > NAME_MAX || name.size() >= PATH_MAX)
+  {
+    return "is too long for a file's name";
+  }
+  const std::string record = journalName;
+  const bool ours =
+    first == record || first == partialName(record) || first == notesName || first == partsName || first == mergedName;
+  return ours ? "is a name for records of the run" : "";
+}
+
 DatasetFile fileOf(const JsonCursor& value)
 {
   DatasetFile file;
   file.path = value["path"].text();
-  if (!Folder::isPlain(file.path))
+  const std::string fault = faultOfName(file.path);
+  if (!fault.empty())
   {
-    value["path"].fail("leads out of the dataset", "a name beneath its folder", dgtk::quoted(file.path));
+    value["path"].fail(fault, "a name beneath its folder", dgtk::quoted(file.path));
   }
   file.bytes = countOf(value["bytes"]);
   file.sha256 = hashOf(value["sha256"]);

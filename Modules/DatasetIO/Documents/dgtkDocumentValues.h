@@ -77,6 +77,8 @@ inline std::vector<std::string> textsIn(const JsonCursor& list)
 }
 
 /// A file of a manifest.
+/// Why a file of a dataset or an export cannot have this name; "" where it can.
+std::string faultOfName(const std::string& name);
 DatasetFile fileOf(const JsonCursor& value);
 JsonObject fileObject(const DatasetFile& file);
 

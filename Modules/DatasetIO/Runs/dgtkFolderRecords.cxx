@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFolderRecords.h"
 
+#include "dgtkDocumentValues.h"
 #include "dgtkError.h"
 #include "dgtkExportDocument.h"
 #include "dgtkLongDocuments.h"
@@ -115,9 +116,10 @@ void readJournal(const std::string& path, FolderRecords& records, const ForListe
     {
       break;
     }
-    if (!Folder::isPlain(file->path))
+    const std::string fault = faultOfName(file->path);
+    if (!fault.empty())
     {
-      throw InputError(path, quoted(file->path) + " leads out of the dataset");
+      throw InputError(path, quoted(file->path) + ' ' + fault);
     }
     list(std::move(*file), ListedIn::Journal, records, visit);
   }
