@@ -88,10 +88,25 @@ void Results::merge(const Results& other)
   }
 }
 
+namespace
+{
+/// An error's text without the file that it begins with.
+std::string textBehind(const std::string& file, const std::string& what)
+{
+  const std::size_t at = file.empty() ? std::string::npos : what.find(file + ':');
+  if (at == std::string::npos || (at > 0 && what[at - 1] != '/'))
+  {
+    return what;
+  }
+  const std::string rest = what.substr(at + file.size() + 1);
+  return rest.empty() ? what : rest.front() == ' ' ? rest.substr(1) : "line " + rest;
+}
+} // namespace
+
 void Results::unusable(const std::string& layer, const std::string& file, const std::string& what)
 {
   Meter meter(0);
-  meter.equal(false, [&] { return Offender{ file, -1, -1, what, "a file that can be used" }; });
+  meter.equal(false, [&] { return Offender{ file, -1, -1, textBehind(file, what), "a file that can be used" }; });
   this->add({ layer, "", { file } }, meter);
 }
 

@@ -385,6 +385,33 @@ class Frame(datasets.ExportCase):
                 file.write(b" ")
             self.refused("export", dataset, "--format", form, "-o", self.path("out", form), "--quiet", status=3, says=(path, "its size differs"))
 
+    def test_the_referee_names_a_file_once(self):
+        dataset, out = self.render(datasets.walk(self.path("scene"))), self.path("out")
+        self.dgtk("export", dataset, "--format", "tum", "-o", out, "--quiet")
+        verify = ("verify", dataset, "--export", out)
+
+        def breach(line):
+            done = self.dgtk(*verify, status=1)
+            self.assertIn(line, done.stderr)
+
+        listed = next(one for one in load_json(os.path.join(out, "export.json"))["files"] if one["path"].endswith(".png"))
+        path = os.path.join(out, listed["path"])
+        with open(path, "rb") as file:
+            whole = file.read()
+        with open(path, "ab") as file:
+            file.write(b" ")
+        breach(f"dgtk: {path}: found {len(whole) + 1} bytes, expected {len(whole)} bytes (")
+        os.remove(path)
+        breach(f"dgtk: {path}: found no file, expected {len(whole)} bytes (")
+        with open(path, "wb") as file:
+            file.write(whole)
+        depth = os.path.join(dataset, "Kamera 1", "depth", "000001.npy")
+        os.rename(depth, depth + ".gone")
+        breach(f"dgtk: {out}/export.json: found {depth}: cannot be read: ")
+        os.rename(depth + ".gone", depth)
+        os.remove(os.path.join(dataset, "objects.json"))
+        self.refused(*verify, status=3, says=f"dgtk: {dataset}/objects.json: no such file")
+
 
 if __name__ == "__main__":
     main()

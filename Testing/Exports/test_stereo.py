@@ -239,7 +239,7 @@ class FlyingThings(datasets.ExportCase):
         self.assertIn("layer pose", self.planted(dataset, folder, name, lambda text: text.replace(b"\nL 1 ", b"\nL -1 ", 1)))
         for line, side in ((2, b"L"), (3, b"R")):
             said = self.planted(dataset, folder, name, lambda text: text.replace(b"\n" + side + b" 1 ", b"\n" + side + b" x ", 1))  # noqa: B023
-            self.assertIn(f"camera_data.txt:{line}: ", said)
+            self.assertIn(f"camera_data.txt: found line {line}: ", said)
 
     def test_parts(self):
         dataset = self.render(datasets.stereo(self.path("scene")), self.LAYERS)

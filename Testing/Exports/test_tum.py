@@ -201,7 +201,7 @@ class Tum(datasets.ExportCase):
         with open(os.path.join(self.sequence, "groundtruth.txt"), encoding="utf-8") as file:
             rows = [line for line in file.read().split("\n") if line and line[0] != "#"]
         at = 1 + next(i for i, row in enumerate(rows) if row.startswith("0.040000 "))
-        self.assertRegex(short, rf"groundtruth\.txt:{at}: ")
+        self.assertRegex(short, rf"groundtruth\.txt: found line {at}: ")
         self.assertIn(f"(line {at})", planted("groundtruth.txt", lambda text: text.replace(b"\n0.040000 ", b"\n0.041000 ", 1)))
         self.assertRegex(planted("depth.txt", lambda text: text.replace(b"\n0.080000", b"\n0.081000", 1)), "layer (time|associations)")
         lists = ("rgb.txt", "depth.txt", "groundtruth.txt", "associations.txt")  # which agree with each other then, but not with the dataset

@@ -105,9 +105,14 @@ ExportedFrom::ExportedFrom(const std::string& dataset, const std::string& folder
   this->ByPath = sortedBy(this->Record.files, &pathIn);
 }
 
+std::string ExportedFrom::folderOf(const std::string& part) const
+{
+  return part.empty() ? this->DatasetFolder : this->DatasetFolder + '/' + part.substr(0, part.size() - 1);
+}
+
 void ExportedFrom::addCameras(const std::string& part)
 {
-  readCameras(dgtk::Folder(this->DatasetFolder + '/' + part).fileAt("cameras.json"),
+  readCameras(dgtk::Folder(this->folderOf(part)).fileAt("cameras.json"),
     [&](CameraRecord&& camera)
     {
       camera.name = part + camera.name;
@@ -117,7 +122,7 @@ void ExportedFrom::addCameras(const std::string& part)
 
 void ExportedFrom::addPart(const std::string& part)
 {
-  const std::string folder = this->DatasetFolder + '/' + part;
+  const std::string folder = this->folderOf(part);
   this->Objects[part] = readObjects(dgtk::Folder(folder).fileAt("objects.json"));
   this->Manifests[part] = readManifestIn(folder,
     [&](DatasetFile&& file)

@@ -78,6 +78,7 @@ public:
 private:
   void addCameras(const std::string& part);
   void addPart(const std::string& part);
+  std::string folderOf(const std::string& part) const;
   std::uint32_t shotOf(const std::string& camera, int frame) const;
   bool holdsDepths(const std::string& camera, const std::string& layer) const;
   DatasetFile fileAt(std::uint32_t number) const;

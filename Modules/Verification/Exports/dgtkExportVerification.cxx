@@ -96,12 +96,20 @@ void checkFiles(const ExportedFrom& source, Results& results)
       });
     std::error_code error;
     const bool there = fs::is_regular_file(path, error);
-    const std::string found = there ? Sha256::ofFile(path) : "no file";
-    meter.equal(found == one.file.sha256, [&] { return Offender{ one.file.path, -1, -1, found, one.file.sha256 }; });
-    const std::uint64_t bytes = there ? fs::file_size(path, error) : one.file.bytes;
-    meter.equal(bytes == one.file.bytes,
+    const std::uint64_t bytes = there ? fs::file_size(path, error) : 0;
+    const auto inBytes = [](std::uint64_t number) { return std::to_string(number) + " bytes"; };
+    if (!there || bytes != one.file.bytes)
+    {
+      meter.equal(false,
+        [&] {
+          return Offender{ one.file.path, -1, -1, there ? inBytes(bytes) : "no file", inBytes(one.file.bytes) };
+        });
+      continue;
+    }
+    const std::string hash = Sha256::ofFile(path);
+    meter.equal(hash == one.file.sha256,
       [&] {
-        return Offender{ one.file.path, -1, -1, std::to_string(bytes) + " bytes", std::to_string(one.file.bytes) };
+        return Offender{ one.file.path, -1, -1, "SHA-256 " + hash, one.file.sha256 };
       });
   }
   const auto [said, right] = exportOwnHashes(source.path(exportName));
@@ -172,7 +180,7 @@ void attempt(const ExportedFrom& source, const std::string& layer, Results& resu
   catch (const InputError& error)
   {
     const bool own = error.file().compare(0, prefix.size(), prefix) == 0;
-    results.unusable(layer, own ? error.file().substr(prefix.size()) : error.file(), error.what());
+    results.unusable(layer, own ? error.file().substr(prefix.size()) : exportName, error.what()); // else the dataset's
   }
   catch (const UsageError& error)
   {

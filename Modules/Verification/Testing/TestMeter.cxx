@@ -143,4 +143,18 @@ TEST(Results, KnowsTheFilesThatItsRowsCompare)
   EXPECT_TRUE(results.compares("b.npy"));
   EXPECT_FALSE(results.compares("c.npy"));
 }
+
+TEST(Results, SayAFileOnce)
+{
+  const auto found = [](const std::string& what)
+  {
+    Results results;
+    results.unusable("layer", "a/b.json", what);
+    return results.report().residuals.at(0).worst.value;
+  };
+  EXPECT_EQ(found("out/a/b.json: no such file"), "no such file");
+  EXPECT_EQ(found("a/b.json:7: is not valid"), "line 7: is not valid");
+  EXPECT_EQ(found("is damaged"), "is damaged");
+  EXPECT_EQ(found("other.json: names a/b.json: no such file"), "other.json: names a/b.json: no such file");
+}
 } // namespace
