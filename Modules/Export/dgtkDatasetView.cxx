@@ -340,7 +340,14 @@ std::unique_ptr<RowReader> DatasetView::open(
     throw InputError(this->Folder,
       "camera " + quoted(shot.name()) + " has no file of layer " + layer + " at frame " + std::to_string(shot.frame()));
   }
-  return openLayerFile(this->pathOf(name));
+  const std::string path = this->pathOf(name);
+  std::unique_ptr<RowReader> reader = openLayerFile(path);
+  const auto sizeOf = [](const auto& one) { return std::to_string(one.width) + " x " + std::to_string(one.height); };
+  if (sizeOf(reader->info()) != sizeOf(shot.camera))
+  {
+    throw InputError(path, "size differs from the camera's", sizeOf(shot.camera), sizeOf(reader->info()));
+  }
+  return reader;
 }
 
 ImageData DatasetView::read(
@@ -376,10 +383,7 @@ AmodalMasks DatasetView::amodal(const DatasetShot& shot) const { return readAmod
 
 std::vector<PoseRecord> DatasetView::poses(int frame) const { return this->AllPoses->at(this->Folder, frame); }
 
-std::vector<TrackPoint> DatasetView::trackPoints() const
-{
-  return readTrackPoints(this->pathOf(trackPointsFile));
-}
+std::vector<TrackPoint> DatasetView::trackPoints() const { return readTrackPoints(this->pathOf(trackPointsFile)); }
 
 double DatasetView::seconds(int frame) const
 {

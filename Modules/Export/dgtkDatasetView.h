@@ -125,7 +125,7 @@ public:
   DatasetFile listed(const std::string& file) const;
   /// The whole file; throws InputError where it is not the one that the manifest lists.
   std::string bytesOf(const std::string& file) const;
-  /// Throws InputError where the shot has no file of the layer.
+  /// Throws InputError where the shot has no file of the layer, or one of another size than the camera has.
   std::unique_ptr<RowReader> open(
     const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {}) const;
   /// The same, whole.

@@ -13,7 +13,7 @@ import datasets
 from datasets import layer_of, load_json, main, read_png
 from test_kitti import labels
 
-FORMATS = "nerf-synthetic,middlebury,kitti-odometry,kitti-object,kitti-depth,kitti2015,colmap,transforms,voc,tum,tapvid,hdf5"
+FORMATS = "bop,nerf-synthetic,middlebury,kitti-odometry,kitti-object,kitti-depth,kitti2015,colmap,transforms,voc,tum,tapvid,hdf5"
 DEPTHS = ("bop", "colmap-dense", "hdf5", "kitti-depth", "mcap", "mvsnet", "rosbag", "sintel", "transforms", "tum")
 PAIR = ("--cameras", "left,right")
 
@@ -210,6 +210,15 @@ class Limits(datasets.ExportCase):
         folder, _ = self.export(self.dataset, "hdf5", "--cameras", "left")
         with h5py.File(os.path.join(folder, "0.hdf5"), "r") as file:
             self.assertTrue(np.array_equal(file["colors"][()], rounded))
+
+
+    def test_pictures_of_another_size_than_the_camera(self):
+        for key, amount in (("width", 2 ** 31 - 1), ("width", 25), ("height", 17), ("height", 1)):
+            dataset = self.with_cameras(lambda camera, name, frame, amount, key=key: camera.update({key: amount} if name == "left" else {}), amount)
+            for form in ("voc", "tum", "kitti-depth", "hdf5", "transforms", "bop"):
+                with self.subTest(form=form, key=key, amount=amount):
+                    self.refused("export", dataset, "--format", form, "-o", self.path(f"size-{form}-{key}-{amount}"), "--cameras", "left", "--quiet", status=3,
+                                 says=("/left/", "size differs from the camera's", "found 24 x 18)"))
 
 
 if __name__ == "__main__":

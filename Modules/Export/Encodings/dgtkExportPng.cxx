@@ -44,6 +44,7 @@ std::string pngOf(const DatasetView& dataset, const DatasetShot& shot, const std
     throw UsageError("the pictures of layer " + layer + " are no PNG, which the format needs (camera " +
                      quoted(shot.name()) + ", frame " + std::to_string(shot.frame()) + ')');
   }
+  dataset.open(shot, layer, { "png" }); // which compares its size
   return source;
 }
 
