@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtk3dsMotion.h"
 
+#include "dgtk3dsChunks.h"
+
 namespace dgtk
 {
 
 namespace
 {
-enum MotionChunk : std::uint16_t
-{
-  KeyFramer = 0xb000,
-  ObjectNode = 0xb002,
-  PositionTrack = 0xb020,
-  RotationTrack = 0xb021,
-  ScaleTrack = 0xb022
-};
-
 constexpr std::size_t motionHeader = 6;
 
 /// Calls visit(id, begin and end of the contents) for each chunk.
@@ -40,7 +33,7 @@ bool moves(const ByteReader& in, std::size_t begin, std::size_t end)
   forEachChunk(in, begin, end,
     [&](std::uint16_t id, std::size_t track, std::size_t trackEnd)
     {
-      const bool isTrack = id == PositionTrack || id == RotationTrack || id == ScaleTrack;
+      const bool isTrack = id == PositionTrack || id == RotationTrack || id == ScaleTrack || id == MorphTrack;
       found = found || (isTrack && trackEnd - track >= countAt + 4 && in.u32(track + countAt) > 1);
     });
   return found;

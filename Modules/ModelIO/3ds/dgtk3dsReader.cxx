@@ -1,56 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtk3dsChunks.h"
 #include "dgtk3dsMotion.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkModelBuilder.h"
+#include "dgtkText.h"
 
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace dgtk
 {
 
 namespace
 {
-enum ChunkId : std::uint16_t
-{
-  ColorFloat = 0x0010,
-  ColorByte = 0x0011,
-  ColorByteLinear = 0x0012,
-  ColorFloatLinear = 0x0013,
-  PercentInt = 0x0030,
-  PercentFloat = 0x0031,
-  Editor = 0x3d3d,
-  NamedObject = 0x4000,
-  Mesh = 0x4100,
-  Vertices = 0x4110,
-  Faces = 0x4120,
-  FaceMaterial = 0x4130,
-  TextureCoordinates = 0x4140,
-  SmoothingGroups = 0x4150,
-  Main = 0x4d4d,
-  MaterialName = 0xa000,
-  Ambient = 0xa010,
-  Diffuse = 0xa020,
-  Specular = 0xa030,
-  Shininess = 0xa040,
-  ShininessStrength = 0xa041,
-  Transparency = 0xa050,
-  TwoSided = 0xa081,
-  SelfIllumination = 0xa084,
-  TextureMap = 0xa200,
-  OpacityMap = 0xa210,
-  TextureName = 0xa300,
-  TextureTiling = 0xa351,
-  TextureScaleV = 0xa354,
-  TextureScaleU = 0xa356,
-  TextureOffsetU = 0xa358,
-  TextureOffsetV = 0xa35a,
-  TextureAngle = 0xa35c,
-  MaterialBlock = 0xafff
-};
-
 constexpr std::size_t chunkHeader = 6;
 
 struct Chunk
@@ -68,6 +33,7 @@ struct MappedMaterial
   Eigen::Vector2d scale{ 1, 1 };
   Eigen::Vector2d offset{ 0, 0 };
   TextureWrap wrap = TextureWrap::Repeat;
+  std::set<std::string> unread; ///< what its pictures that are not drawn are for
 };
 
 class Reader3ds
@@ -121,7 +87,7 @@ private:
   }
 
   template <typename Function>
-  void forEachOfEditors(const Chunk& main, ChunkId id, Function function)
+  void forEachOfEditors(const Chunk& main, ChunkId3ds id, Function function)
   {
     this->forEach(main.begin, main.end,
       [&](const Chunk& editor)
@@ -224,6 +190,7 @@ private:
     std::string texture;
     MappedMaterial masked;
     std::string mask;
+    std::set<std::string> unread;
     double strength = 1;
     double selfIllumination = 0;
     this->forEach(block.begin, block.end,
@@ -265,12 +232,17 @@ private:
             mask = this->textureMap(c, masked);
             break;
           default:
+            if (unreadMap3ds(c.id) && this->namesPicture(c))
+            {
+              unread.insert(unreadMap3ds(c.id));
+            }
             break;
         }
       });
     m.specular *= strength;
     m.emission = m.diffuse * selfIllumination;
     mapped = texture.empty() ? masked : mapped;
+    mapped.unread = unread;
     m.texture = this->Builder.addTexture(texture, {}, {}, { mapped.wrap, mapped.wrap });
     MaterialAlpha alpha;
     alpha.mask =
@@ -278,6 +250,14 @@ private:
     mapped.material = this->Builder.addMaterial(m, alpha);
     ++this->Builder.model().declaredMaterials;
     this->Materials.emplace(m.name, mapped); // of two with one name the first is meant
+  }
+
+  bool namesPicture(const Chunk& map)
+  {
+    bool found = false;
+    this->forEach(map.begin, map.end,
+      [&](const Chunk& c) { found = found || (c.id == TextureName && c.begin < c.end && this->In.u8(c.begin) != 0); });
+    return found;
   }
 
   std::string textureMap(const Chunk& map, MappedMaterial& mapped)
@@ -444,6 +424,7 @@ private:
       if (face < materialOf.size())
       {
         materialOf[face] = &known->second;
+        this->Unread.insert(known->second.unread.begin(), known->second.unread.end());
       }
       else
       {
@@ -465,6 +446,10 @@ private:
     warn(this->UnknownMaterials, " list(s) of faces name a material that does not exist");
     warn(this->BadFaces, " entries of materials name a face that does not exist");
     warn(this->Turned, " texture(s) are drawn without the angle that their material says");
+    if (!this->Unread.empty())
+    {
+      this->Builder.warn("pictures of " + joined({ this->Unread.begin(), this->Unread.end() }) + " are not drawn");
+    }
     const std::size_t many = countMoving3ds(this->In);
     warn(many, (many == 1 ? " object moves" : " objects move") + std::string(": the motion of 3DS files is not read"));
   }
@@ -472,6 +457,7 @@ private:
   ByteReader In;
   ModelBuilder Builder;
   std::map<std::string, MappedMaterial> Materials;
+  std::set<std::string> Unread; ///< of materials that faces have
   Chunk Ignored;
   std::size_t CutChunks = 0;
   std::size_t UnknownMaterials = 0;

@@ -101,8 +101,12 @@ TEST(Studio3ds, MotionHasAWarning)
   EXPECT_THAT(warnings(still + chunk3ds(0xb002, track(0xb020, 1) + track(0xb021, 2)) +
                        chunk3ds(0xb002, track(0xb022, 3)) + chunk3ds(0xb002, track(0xb020, 2))),
     testing::ElementsAre("3 objects move: the motion of 3DS files is not read"));
-  EXPECT_THAT(warnings(chunk3ds(0xb002, track(0xb021, 2))),
-    testing::ElementsAre("1 object moves: the motion of 3DS files is not read"));
+  for (const std::uint16_t id : { 0xb021, 0xb026 })
+  {
+    EXPECT_THAT(warnings(chunk3ds(0xb002, track(id, 2))),
+      testing::ElementsAre("1 object moves: the motion of 3DS files is not read"))
+      << id;
+  }
 }
 
 TEST(Studio3ds, SmoothingGroups)
@@ -177,6 +181,25 @@ TEST(Studio3ds, AnglesOfTexturesHaveAWarning)
   };
   EXPECT_THAT(warnings(30), Contains("1 texture(s) are drawn without the angle that their material says"));
   EXPECT_THAT(warnings(0), testing::Not(Contains(HasSubstr("angle"))));
+}
+
+TEST(Studio3ds, PicturesOfOtherMapsHaveAWarning)
+{
+  const auto warnings = [](const std::string& maps, const char* used)
+  {
+    const std::string material =
+      chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")) + maps) + chunk3ds(0xafff, chunk3ds(0xa000, text3ds("plain")));
+    const std::string use = chunk3ds(0x4130, text3ds(used) + u16(1) + u16(0));
+    return readBytes("3ds", meshFile(vertices(roof) + faces3ds(roofFaces, use), material))->warnings;
+  };
+  const auto map = [](std::uint16_t id, const char* name = "T.PNG")
+  { return chunk3ds(id, chunk3ds(0x0030, u16(50)) + chunk3ds(0xa300, text3ds(name))); };
+  EXPECT_THAT(
+    warnings(map(0xa230) + map(0xa220), "m"), testing::ElementsAre("pictures of bump, reflection are not drawn"));
+  EXPECT_THAT(warnings(map(0xa204) + map(0xa33a) + map(0xa33c) + map(0xa33d), "m"),
+    testing::ElementsAre("pictures of second texture, self-illumination, shininess, specular are not drawn"));
+  EXPECT_THAT(warnings(map(0xa230), "plain"), testing::IsEmpty()) << "of a material that no face has";
+  EXPECT_THAT(warnings(map(0xa230, "") + chunk3ds(0xa220, chunk3ds(0x0030, u16(50))), "m"), testing::IsEmpty());
 }
 
 TEST(Studio3ds, TexturesRepeatAreMirroredOrEnd)
