@@ -49,8 +49,9 @@ Json infoOfModel(const std::string& path)
   info["animations_beside"] = Json::array(); // of files that accompany the model
   for (const Animation& animation : model->animations)
   {
-    info[animation.beside ? "animations_beside" : "animations"].push_back({ { "name", animation.name },
-      { "first", animation.first }, { "last", animation.last }, { "fps", animation.fps } });
+    info[animation.beside ? "animations_beside" : "animations"].push_back(
+      { { "name", animation.name }, { "first", animation.first }, { "last", animation.last },
+        { "end", animation.first + animation.span() }, { "fps", animation.fps } });
   }
   info["warnings"] = model->warnings;
   return info;

@@ -271,8 +271,8 @@ class Documents(ManyCase):
                 self.assertEqual(self.dgtk("info", path).stdout, told(document(self.dgtk("info", path, "--json").stdout)))
         found = json.loads(self.dgtk("info", os.path.join(SOURCE, "Data", "Models", "creature.md2"), "--json").stdout)
         self.assertEqual([tuple(a.values()) for a in found["animations"]],
-                         [("stand", 0, 7, 10), ("walk", 8, 19, 10), ("jump", 20, 33, 10)])
-        self.assertEqual(list(found["animations"][0]), ["name", "first", "last", "fps"])
+                         [("stand", 0, 7, 7, 10), ("walk", 8, 19, 19, 10), ("jump", 20, 33, 33, 10)])
+        self.assertEqual(list(found["animations"][0]), ["name", "first", "last", "end", "fps"])
         self.assertEqual((found["frames"], found["animations_beside"], found["textures"]),
                          (34, [], [{"name": "models/creature/creature.png", "found": True}]))
         for option in (("--size", "4x3"), ("--surfaces",)):

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`dgtk info` of models, compared with counts made by independent parsers, and of scenes."""
+import base64
 import json
 import math
 import os
+import struct
 
 import numpy
 from harness import EXTRA, SCENES, SOURCE, load_json, main, needs_samples
@@ -52,6 +54,24 @@ class Models(ManyCase):
     @needs_samples
     def test_included_triangles_are_drawn(self):
         self.assertEqual(self.info(os.path.join(EXTRA, "pov/asteroids/aster3.pov"))["triangles"], 1536)
+
+    def test_sequences_end_where_their_keys_do(self):
+        spans = [(0, 1, 4.25), (1, 2, 3.5), (0, 1 / 240, 1 / 120)]  # times of keys, seconds
+        numbers = [0, 0, 0, 1, 0, 0, 0, 1, 0] + [time for times in spans for time in times] + [0, 0, 0, 1, 0, 0, 2, 0, 0]
+        data = struct.pack(f"<{len(numbers)}f", *numbers)
+        buffer = {"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}
+        views = [{"buffer": 0, "byteOffset": 4 * at, "byteLength": 4 * count} for at, count in ((0, 9), (9, 3), (12, 3), (15, 3), (18, 9))]
+        kinds = ["VEC3", "SCALAR", "SCALAR", "SCALAR", "VEC3"]
+        path = self.write("moves.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "buffers": [buffer], "bufferViews": views,
+            "accessors": [{"bufferView": i, "componentType": 5126, "count": 3, "type": kind} for i, kind in enumerate(kinds)],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
+            "animations": [{"name": str(i), "samplers": [{"input": 1 + i, "output": 4}],
+                            "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]} for i in range(3)]}))
+        found = self.info(path)["animations"]
+        self.assertEqual([(a["first"], a["last"]) for a in found], [(0, 128), (0, 105), (0, 0)])
+        for sequence, times in zip(found, spans):
+            self.assertAlmostEqual(sequence["end"] / sequence["fps"], times[-1], places=6)
 
     def test_textures_are_found_where_they_exist(self):
         own = os.path.join(SOURCE, "Data", "Models")
