@@ -76,9 +76,10 @@ inline std::vector<std::string> textsIn(const JsonCursor& list)
   return texts;
 }
 
-/// A file of a manifest.
 /// Why a file of a dataset or an export cannot have this name; "" where it can.
 std::string faultOfName(const std::string& name);
+
+/// A file of a manifest.
 DatasetFile fileOf(const JsonCursor& value);
 JsonObject fileObject(const DatasetFile& file);
 
